@@ -1,0 +1,7 @@
+//! Numbers: random streams, warps, colours, polygon integrals and statistics. Nothing here knows of a scene.
+
+pub mod polygon;
+pub mod random;
+pub mod rgb;
+pub mod stats;
+pub mod warp;

@@ -1,0 +1,62 @@
+//! How a surface reflects and emits, as MTL files state it.
+
+use crate::math::rgb::Rgb;
+use std::f32::consts::PI;
+
+/// A material with every value already inside its physical range.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Material {
+    pub name: String,
+    /// Diffuse reflectance ρ (`Kd`), each channel in [0, [`Material::MAX_REFLECTANCE`]].
+    pub diffuse: Rgb,
+    /// Specular reflectance (`Ks`), each channel in [0, 1].
+    pub specular: Rgb,
+    /// Phong exponent (`Ns`).
+    pub shininess: f32,
+    /// Emitted radiance (`Ke`), W/(m²·sr).
+    pub emission: Rgb,
+    /// Index of refraction (`Ni`).
+    pub refraction_index: f32,
+    /// Transmission filter (`Tf`), each channel in [0, 1].
+    pub transmission: Rgb,
+    /// Opacity in [0, 1] (`d`, or 1 − `Tr`).
+    pub opacity: f32,
+    /// Illumination model (`illum`), where the file states one.
+    pub illumination_model: Option<u8>,
+}
+
+impl Material {
+    /// The largest diffuse reflectance that a scene may have: with 1 in a closed room, light would never die out.
+    pub const MAX_REFLECTANCE: f32 = 0.999;
+
+    /// A grey diffuse material for faces whose file names none.
+    pub fn grey(name: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            diffuse: Rgb::splat(0.5),
+            specular: Rgb::ZERO,
+            shininess: 10.0,
+            emission: Rgb::ZERO,
+            refraction_index: 1.0,
+            transmission: Rgb::ZERO,
+            opacity: 1.0,
+            illumination_model: None,
+        }
+    }
+
+    /// Emitted exitance M_e = π · `Ke`, W/m².
+    pub fn exitance(&self) -> Rgb {
+        self.emission * PI
+    }
+
+    pub fn is_emitter(&self) -> bool {
+        self.emission.max_element() > 0.0
+    }
+
+    /// Whether the file asks for a mirror, gloss or glass beside the diffuse part.
+    pub fn is_specular(&self) -> bool {
+        let mirror_or_glass = matches!(self.illumination_model, Some(3..=9));
+        let glossy = self.specular.max_element() > 0.0 && self.illumination_model != Some(1);
+        mirror_or_glass || glossy || self.opacity < 1.0
+    }
+}

@@ -1,0 +1,96 @@
+//! What a scene file says: polygons, materials, a viewpoint, and what had to be mended to read it.
+
+mod builtin;
+mod doctor;
+mod material;
+mod obj;
+
+pub use builtin::{BUILTINS, Builtin};
+pub use doctor::{Finding, FindingKind, Severity};
+pub use material::Material;
+
+use crate::math::rgb::Rgb;
+use glam::Vec3;
+use std::path::{Path, PathBuf};
+
+/// A scene as its file describes it, mended where that was possible. Lengths are in metres, y is up.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// The built-in name, or the file's name without its folder and extension.
+    pub name: String,
+    /// Where it was read from.
+    pub source: Source,
+    /// Corner positions; every polygon's corners index into them.
+    pub positions: Vec<Vec3>,
+    /// Triangles and planar convex quads, in the order of the file.
+    pub polygons: Vec<Polygon>,
+    /// Never empty where there is a polygon: polygons without a material share a grey one.
+    pub materials: Vec<Material>,
+    /// Names of the file's objects and groups.
+    pub objects: Vec<String>,
+    /// The view that the scene's author measured, where one is known.
+    pub viewpoint: Option<Viewpoint>,
+    /// What was wrong with the file and what was done about it.
+    pub findings: Vec<Finding>,
+}
+
+/// Where a scene comes from: a path, or the name of a scene that is built into the program.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Source {
+    Builtin(&'static str),
+    File(PathBuf),
+}
+
+/// A planar convex face with three or four corners. Its front is the side from which they run counter-clockwise.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Polygon {
+    corners: [u32; 4],
+    corner_count: u8,
+    /// Index into [`Scene::materials`].
+    pub material: u32,
+    /// Index into [`Scene::objects`].
+    pub object: u32,
+    /// Line of the file, from 1, that states the face; 0 for a polygon that is in no file.
+    pub line: u32,
+}
+
+impl Polygon {
+    /// `corners` are indices of positions: three or four of them.
+    ///
+    /// # Panics
+    /// If there are fewer than three or more than four corners.
+    pub fn new(corners: &[u32], material: u32, object: u32, line: u32) -> Self {
+        assert!((3..=4).contains(&corners.len()), "a polygon has three or four corners");
+        let mut padded = [corners[2]; 4];
+        padded[..corners.len()].copy_from_slice(corners);
+        Self { corners: padded, corner_count: corners.len() as u8, material, object, line }
+    }
+
+    /// Indices of the corner positions, counter-clockwise seen from the front.
+    pub fn corners(&self) -> &[u32] {
+        &self.corners[..self.corner_count as usize]
+    }
+}
+
+/// A pinhole camera's place and lens.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Viewpoint {
+    pub eye: Vec3,
+    pub target: Vec3,
+    pub up: Vec3,
+    /// Full vertical angle of view, degrees.
+    pub vertical_fov: f32,
+}
+
+/// Why a scene could not be opened.
+#[derive(Debug, thiserror::Error)]
+pub enum SceneError {
+    #[error("cannot read {path}")]
+    Read { path: PathBuf, source: std::io::Error },
+    #[error("no scene is called `{name}`, and there is no such file (built-in scenes: {known})")]
+    Unknown { name: String, known: String },
+    #[error("{path} has no face that can be used: {reason}")]
+    Empty { path: String, reason: String },
+    #[error("{path}, line {line}: {reason}")]
+    Malformed { path: String, line: usize, reason: String },
+}
