@@ -51,8 +51,7 @@ fn load_libraries(
     for (line, argument) in names {
         // The argument is one name, which may hold spaces, or else several names.
         let loaded = load(argument).map(|text| vec![(argument.as_str(), text)]).or_else(|error| {
-            let several: io::Result<Vec<_>> =
-                argument.split_whitespace().map(|name| Ok((name, load(name)?))).collect();
+            let several: io::Result<Vec<_>> = argument.split_whitespace().map(|name| Ok((name, load(name)?))).collect();
             several.map_err(|_| error)
         });
         match loaded {
@@ -179,12 +178,18 @@ impl Assembler {
         let (kind, problem, remedy) = match shape {
             Shape::Planar => return,
             Shape::Warped(share) => {
-                let problem = format!("its {} corners are not in one plane (off by {share:.1e} of its size)", corners.len());
+                let problem =
+                    format!("its {} corners are not in one plane (off by {share:.1e} of its size)", corners.len());
                 (FindingKind::NonPlanarFace, problem, "cut into triangles")
             }
             Shape::Crossed => {
                 let problem = "its outline crosses itself".to_owned();
-                self.findings.push(Finding::warning(FindingKind::CrossedFace, subject, problem, "cut as far as possible"));
+                self.findings.push(Finding::warning(
+                    FindingKind::CrossedFace,
+                    subject,
+                    problem,
+                    "cut as far as possible",
+                ));
                 return;
             }
             Shape::Degenerate => (FindingKind::DegenerateFace, "the face has no area".to_owned(), "left out"),
@@ -247,16 +252,8 @@ impl Assembler {
                 None => Material::grey("grey"),
             })
             .collect();
-        let mut scene = Scene {
-            name: name.to_owned(),
-            source,
-            positions,
-            polygons,
-            materials,
-            objects,
-            viewpoint: None,
-            findings,
-        };
+        let mut scene =
+            Scene { name: name.to_owned(), source, positions, polygons, materials, objects, viewpoint: None, findings };
         if !scene.has_emitter() {
             scene.findings.push(Finding::warning(
                 FindingKind::NoEmitter,

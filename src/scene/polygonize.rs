@@ -3,7 +3,7 @@
 //! All measures are relative, so a scene scaled by 1e-6 or 1e6 is cut in the same way.
 
 use earcut::Earcut;
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DVec3, Vec3};
 use std::collections::HashMap;
 
 /// How far the corners of a quad may be apart along its normal, in units of its largest coordinate.
