@@ -138,7 +138,7 @@ install_missing() {
         fi
         as_root=(sudo -n)
     fi
-    as_root+=(env DEBIAN_FRONTEND=noninteractive apt-get -qq)
+    as_root+=(env DEBIAN_FRONTEND=noninteractive apt-get -qq -o Dpkg::Use-Pty=0)
     say "installing ${missing_packages[*]}"
     # A third-party source that fails to update need not stop the installation; apt-get names it.
     "${as_root[@]}" update >&2 || say "apt-get update failed; trying with the package lists that are here"
