@@ -196,7 +196,7 @@ fn the_checker_knows_every_kind_of_rule() {
         ("src/novel/mod.rs", "", "the top module `novel` has no layer: put it in the table"),
         ("src/main.rs", "use lightwell::novel;", "the top module `novel` has no layer: put it in the table"),
         ("src/world.rs", "use super::*;", "names the whole crate at once: name the modules"),
-        ("src/world.rs", "use crate as all;", "names the whole crate at once: name the modules"),
+        ("src/world.rs", "use crate::{self as all};", "names the whole crate at once: name the modules"),
         (
             "src/world.rs",
             "use tobj::Mesh;",
@@ -240,6 +240,7 @@ fn the_checker_lets_pass_what_the_table_allows() {
             "src/math/rgb.rs",
             "// crate::app\n/* /* tobj::x */ crate::app */ /// [`crate::app`]\nconst A: &str = \"crate::app\";",
         ),
+        ("src/math/rgb.rs", "const A: &str = \"\\\" crate::app \\\\\"; const B: char = '\"'; use crate::math;"),
         ("src/math/rgb.rs", "const A: &str = r#\"\" crate::app\"#; const B: char = '\\''; const C: &[u8] = br\"\\\";"),
     ] {
         assert_eq!(said(file, source), [""; 0], "{file}: {source}");

@@ -69,9 +69,6 @@ impl<'a> Reader<'a> {
                 self.at += 1;
             }
             "}" => self.close_brace(),
-            // `<T>::name` and `name::<T>` go on with a path that started elsewhere.
-            ">" if self.word(1) == "::" => self.at += 2,
-            "::" if self.word(1) == "<" => self.at += 2,
             word if is_name(word) || word == "::" => self.path(Vec::new(), false),
             _ => self.at += 1,
         }
@@ -121,6 +118,7 @@ impl<'a> Reader<'a> {
             name = self.word(1);
             self.at += 2;
         }
+        // A lone name in an expression stays in the file, as `crate` in `pub(crate)` and the end of `Vec::<T>::new` do.
         if in_use || segments.len() > 1 {
             self.record(&segments, global, line);
         }
