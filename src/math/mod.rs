@@ -1,5 +1,6 @@
 //! Numbers: random streams, warps, colours, polygon integrals and statistics. Nothing here knows of a scene.
 
+pub mod bounds;
 pub mod polygon;
 pub mod random;
 pub mod rgb;

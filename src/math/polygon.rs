@@ -1,0 +1,161 @@
+//! Integrals over planar polygons, in double precision.
+
+use glam::DVec3;
+use std::f64::consts::{PI, TAU};
+
+/// The most corners that a polygon may have in [`form_factor`].
+pub const MAX_CORNERS: usize = 4;
+
+/// Area times unit normal; corners run counter-clockwise round the normal (Newell's method, kept near the origin by
+/// measuring from the first corner).
+pub fn vector_area(corners: &[DVec3]) -> DVec3 {
+    let first = corners[0];
+    corners.windows(2).map(|pair| (pair[0] - first).cross(pair[1] - first)).sum::<DVec3>() * 0.5
+}
+
+/// Form factor from a small surface at `point` with unit `normal` to a polygon, F in [0, 1]: the share of the flux
+/// that leaves the point and arrives, and at once the irradiance there per radiosity of the polygon.
+///
+/// Lambert (1760) in the form of Nishita and Nakamae (1985): a sum over the edges, exact for any polygon; what lies
+/// below the receiver's horizon is clipped away first. `corners` are three or four, counter-clockwise seen from the
+/// front of the polygon; the result is 0 for a point that is not in front of it. Angles come from atan2, since acos
+/// loses half its digits for short edges.
+pub fn form_factor(point: DVec3, normal: DVec3, corners: &[DVec3]) -> f64 {
+    let mut clipped = [DVec3::ZERO; MAX_CORNERS + 1];
+    let count = clip_at_horizon(point, normal, corners, &mut clipped);
+    if count < 3 {
+        return 0.0;
+    }
+    let mut sum = 0.0;
+    let mut from = clipped[count - 1];
+    for &to in &clipped[..count] {
+        let axis = from.cross(to);
+        let sine = axis.length();
+        // An edge that points at the receiver spans no angle.
+        if sine > 0.0 {
+            sum += sine.atan2(from.dot(to)) * normal.dot(axis) / sine;
+        }
+        from = to;
+    }
+    // Seen from the front the corners run counter-clockwise, so each axis points away from the normal's side.
+    (-sum / TAU).clamp(0.0, 1.0)
+}
+
+/// Copies the part of a convex polygon above the plane through `point` into `clipped`, relative to `point`, and
+/// returns its number of corners (Sutherland, Hodgman 1974; one plane adds at most one corner).
+fn clip_at_horizon(point: DVec3, normal: DVec3, corners: &[DVec3], clipped: &mut [DVec3; MAX_CORNERS + 1]) -> usize {
+    let mut count = 0;
+    let mut from = corners[corners.len() - 1] - point;
+    let mut from_height = normal.dot(from);
+    for &corner in corners {
+        let to = corner - point;
+        let to_height = normal.dot(to);
+        if (from_height < 0.0) != (to_height < 0.0) {
+            clipped[count] = from + (to - from) * (from_height / (from_height - to_height));
+            count += 1;
+        }
+        if to_height >= 0.0 {
+            clipped[count] = to;
+            count += 1;
+        }
+        (from, from_height) = (to, to_height);
+    }
+    count
+}
+
+/// Form factor between two equal parallel rectangles `a` × `b`, face to face at distance `c` (Howell C-11).
+pub fn parallel_rectangles(a: f64, b: f64, c: f64) -> f64 {
+    let (x, y) = (a / c, b / c);
+    let (x1, y1) = ((1.0 + x * x).sqrt(), (1.0 + y * y).sqrt());
+    let logarithm = (x1 * y1 / (1.0 + x * x + y * y).sqrt()).ln();
+    let angles = x * y1 * (x / y1).atan() + y * x1 * (y / x1).atan() - x * x.atan() - y * y.atan();
+    2.0 / (PI * x * y) * (logarithm + angles)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A unit square in the plane z = `height`, facing down.
+    fn square_above(height: f64) -> [DVec3; 4] {
+        [(0.0, 0.0), (0.0, 1.0), (1.0, 1.0), (1.0, 0.0)].map(|(x, y)| DVec3::new(x, y, height))
+    }
+
+    #[test]
+    fn an_octant_seen_from_the_origin_is_a_quarter() {
+        let corners = [DVec3::X, DVec3::Z, DVec3::Y];
+        assert!((form_factor(DVec3::ZERO, DVec3::Z, &corners) - 0.25).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_polygon_seen_from_behind_sends_nothing() {
+        assert_eq!(form_factor(DVec3::ZERO, DVec3::Z, &[DVec3::X, DVec3::Y, DVec3::Z]), 0.0);
+        assert_eq!(form_factor(DVec3::new(0.5, 0.5, 0.0), DVec3::NEG_Z, &square_above(1.0)), 0.0);
+    }
+
+    #[test]
+    fn a_square_above_the_middle_has_the_published_values() {
+        for (gap, expected) in [
+            (10.0, 0.003_172_525_532_555_43),
+            (2.0, 0.073_477_634_812_521_4),
+            (1.0, 0.239_456_470_460_774),
+            (0.5, 0.554_126_423_979_572),
+            (0.1, 0.968_339_556_974_04),
+            (0.01, 0.999_672_786_936_448),
+        ] {
+            let got = form_factor(DVec3::new(0.5, 0.5, 0.0), DVec3::Z, &square_above(gap));
+            assert!((got - expected).abs() < 1e-14, "gap {gap}: {got}");
+        }
+    }
+
+    #[test]
+    fn at_the_foot_of_a_wall_the_horizon_clips_and_digits_survive() {
+        // The wall stands on the floor's plane and reaches below it, so half of it must be clipped away.
+        let wall = [(-1.0, 0.0), (-1.0, 1.0), (1.0, 1.0), (1.0, 0.0)].map(|(z, y)| DVec3::new(0.0, y, z));
+        for (distance, expected) in [
+            (0.5, 0.190_135_882_384_807),
+            (0.1, 0.422_544_860_239_058),
+            (1e-3, 0.499_215_797_596_26),
+            (1e-6, 0.499_999_215_796_61),
+            (1e-9, 0.499_999_999_215_796_63),
+        ] {
+            let got = form_factor(DVec3::new(distance, 0.5, 0.0), DVec3::Z, &wall);
+            assert!((got - expected).abs() < 1e-14, "distance {distance}: {got}");
+        }
+    }
+
+    #[test]
+    fn the_six_walls_of_a_cube_close_round_any_inner_point() {
+        let corner = |i: usize| DVec3::new((i & 1) as f64, (i >> 1 & 1) as f64, (i >> 2) as f64);
+        let faces =
+            [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]].map(|f| f.map(corner));
+        let point = DVec3::new(0.21, 0.37, 0.68);
+        let normal = DVec3::new(0.3, -0.5, 0.8).normalize();
+        let sum: f64 = faces
+            .iter()
+            .map(|face| {
+                let mut inward = *face;
+                if vector_area(face).dot(DVec3::splat(0.5) - face[0]) < 0.0 {
+                    inward.reverse();
+                }
+                form_factor(point, normal, &inward)
+            })
+            .sum();
+        assert!((sum - 1.0).abs() < 1e-14, "{sum}");
+    }
+
+    #[test]
+    fn vector_area_keeps_its_digits_far_from_the_origin() {
+        let far = square_above(0.0).map(|corner| corner + DVec3::splat(1e8));
+        assert!((vector_area(&far) - DVec3::NEG_Z).length() < 1e-7);
+    }
+
+    #[test]
+    fn parallel_rectangles_have_the_published_values() {
+        for (gap, expected) in
+            [(10.0, 0.003_162_056_838_757_6), (1.0, 0.199_824_895_698_387), (0.01, 0.980_416_602_925_973)]
+        {
+            assert!((parallel_rectangles(1.0, 1.0, gap) - expected).abs() < 1e-13);
+        }
+    }
+}

@@ -1,0 +1,122 @@
+//! Random numbers that depend on (seed, pass, index) alone, so that a result is the same on any number of threads.
+
+use glam::Vec2;
+
+/// SplitMix64 (Steele, Lea, Flood 2014): a counter whose successive states are scrambled to 64 random bits.
+#[derive(Clone, Debug)]
+pub struct Stream(u64);
+
+impl Stream {
+    /// The stream of item `index` in pass `pass` of the run with this `seed`. Streams of different items do not overlap
+    /// in practice: their starting points are spread over 2^64 by [`hash`].
+    pub fn new(seed: u64, pass: u64, index: u64) -> Self {
+        Self(hash(seed, pass, index))
+    }
+
+    /// 64 random bits.
+    pub fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(GOLDEN);
+        scramble(self.0)
+    }
+
+    /// Uniform in [0, 1).
+    pub fn uniform(&mut self) -> f32 {
+        unit_f32(self.bits())
+    }
+
+    /// Uniform in [0, 1)².
+    pub fn uniform2(&mut self) -> Vec2 {
+        let bits = self.bits();
+        Vec2::new(unit_f32(bits), unit_f32(bits << 32))
+    }
+}
+
+/// 64 bits that depend on all bits of the three numbers.
+pub fn hash(seed: u64, pass: u64, index: u64) -> u64 {
+    let mut state = scramble(seed.wrapping_add(GOLDEN));
+    state = scramble(state ^ pass.wrapping_mul(GOLDEN));
+    scramble(state ^ index.wrapping_mul(GOLDEN))
+}
+
+/// Point `index` of an Owen-scrambled Sobol sequence (Burley 2020) in dimensions `2 pair` and `2 pair + 1`, in [0, 1)².
+/// Sequences of different seeds are independent; any power-of-two run of one sequence is stratified.
+pub fn sobol2(index: u32, pair: u32, seed: u32) -> Vec2 {
+    let x = sobol_burley::sample(index, 2 * pair, seed);
+    let y = sobol_burley::sample(index, 2 * pair + 1, seed);
+    Vec2::new(x, y)
+}
+
+/// The first `N` points of Roberts' R2 sequence (2018): evenly spread over [0, 1)² at every length.
+pub const fn r2_points<const N: usize>() -> [Vec2; N] {
+    // 1/p and 1/p², where p = 1.3247… solves p³ = p + 1.
+    const STEP: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_3];
+    let mut points = [Vec2::ZERO; N];
+    let mut i = 0;
+    while i < N {
+        let (x, y) = (0.5 + STEP[0] * i as f64, 0.5 + STEP[1] * i as f64);
+        points[i] = Vec2::new((x - x.floor()) as f32, (y - y.floor()) as f32);
+        i += 1;
+    }
+    points
+}
+
+/// Shifts a point of [0, 1)² by another one, round the edges (Cranley, Patterson 1976).
+pub fn rotate(point: Vec2, shift: Vec2) -> Vec2 {
+    let sum = point + shift;
+    sum - sum.floor()
+}
+
+/// 2^64 divided by the golden ratio, made odd.
+const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
+
+/// The finaliser of SplitMix64 (Stafford 2011, variant 13).
+fn scramble(mut bits: u64) -> u64 {
+    bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    bits ^ (bits >> 31)
+}
+
+/// The top 24 bits as a number in [0, 1): all that an f32 holds.
+fn unit_f32(bits: u64) -> f32 {
+    (bits >> 40) as f32 * (1.0 / (1 << 24) as f32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_stream_depends_on_each_of_its_three_numbers() {
+        let first = Stream::new(1, 2, 3).bits();
+        assert_eq!(first, Stream::new(1, 2, 3).bits());
+        for other in [Stream::new(2, 2, 3), Stream::new(1, 3, 3), Stream::new(1, 2, 4)] {
+            assert_ne!(first, other.clone().bits());
+        }
+    }
+
+    #[test]
+    fn neighbouring_streams_are_uniform_together() {
+        // The first number of each of n streams: their mean has a standard deviation of 1/√(12 n); 4 of them are allowed.
+        let n = 1 << 16;
+        let mean = (0..n).map(|i| f64::from(Stream::new(7, 0, i).uniform())).sum::<f64>() / n as f64;
+        assert!((mean - 0.5).abs() < 4.0 / (12.0 * n as f64).sqrt(), "mean {mean}");
+    }
+
+    #[test]
+    fn a_power_of_two_of_sobol_points_fills_every_stratum_once() {
+        let mut cells = [0; 64];
+        for i in 0..64 {
+            let point = sobol2(i, 0, 5) * 8.0;
+            cells[point.y as usize * 8 + point.x as usize] += 1;
+        }
+        assert_eq!(cells, [1; 64]);
+    }
+
+    #[test]
+    fn rotation_stays_in_the_unit_square() {
+        for point in r2_points::<256>() {
+            let turned = rotate(point, Vec2::new(0.999_999_9, 0.5));
+            assert!(turned.min_element() >= 0.0 && turned.max_element() < 1.0, "{turned}");
+        }
+    }
+}

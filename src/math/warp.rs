@@ -1,0 +1,102 @@
+//! Maps from the unit square to shapes, each with its density and its inverse where one is needed.
+
+use glam::{Mat3A, Vec2, Vec3A};
+use std::f32::consts::{FRAC_PI_4, PI};
+
+/// An orthonormal right-handed frame whose z axis is the unit vector `normal` (Duff et al. 2017).
+pub fn frame(normal: Vec3A) -> Mat3A {
+    let sign = 1.0_f32.copysign(normal.z);
+    let a = -1.0 / (sign + normal.z);
+    let b = normal.x * normal.y * a;
+    Mat3A::from_cols(
+        Vec3A::new(1.0 + sign * normal.x * normal.x * a, sign * b, -sign * normal.x),
+        Vec3A::new(b, sign + normal.y * normal.y * a, -normal.y),
+        normal,
+    )
+}
+
+/// Maps the unit square onto the unit disc, keeping ratios of areas (Shirley, Chiu 1997).
+pub fn disc(point: Vec2) -> Vec2 {
+    let offset = 2.0 * point - Vec2::ONE;
+    if offset == Vec2::ZERO {
+        return Vec2::ZERO;
+    }
+    let (radius, angle) = if offset.x.abs() > offset.y.abs() {
+        (offset.x, FRAC_PI_4 * (offset.y / offset.x))
+    } else {
+        (offset.y, 2.0 * FRAC_PI_4 - FRAC_PI_4 * (offset.x / offset.y))
+    };
+    radius * Vec2::from_angle(angle)
+}
+
+/// Unit direction around +z with the density cos θ / π (Malley's method): a disc lifted onto the hemisphere.
+pub fn cosine_hemisphere(point: Vec2) -> Vec3A {
+    let on_disc = disc(point);
+    Vec3A::new(on_disc.x, on_disc.y, (1.0 - on_disc.length_squared()).max(0.0).sqrt())
+}
+
+/// Density of [`cosine_hemisphere`] per steradian.
+pub fn cosine_hemisphere_density(cosine: f32) -> f32 {
+    cosine.max(0.0) / PI
+}
+
+/// Barycentric weights of the second and third corner of a triangle, uniform by area (Heitz 2019: no folded square).
+pub fn triangle(point: Vec2) -> Vec2 {
+    if point.y > point.x {
+        let second = point.x * 0.5;
+        Vec2::new(second, point.y - second)
+    } else {
+        let third = point.y * 0.5;
+        Vec2::new(point.x - third, third)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::random::{Stream, sobol2};
+
+    #[test]
+    fn frames_are_orthonormal_and_right_handed_in_every_direction() {
+        let mut stream = Stream::new(1, 0, 0);
+        for _ in 0..1000 {
+            let normal = Vec3A::new(stream.uniform(), stream.uniform(), stream.uniform()) - 0.5;
+            let frame = frame(normal.normalize());
+            // Each entry is a sum of a few products of numbers up to 1.
+            assert!((frame.determinant() - 1.0).abs() < 1e-5);
+            assert!((frame * frame.transpose()).abs_diff_eq(Mat3A::IDENTITY, 1e-5));
+        }
+        assert!(frame(Vec3A::NEG_Z).is_finite() && frame(Vec3A::Z).is_finite());
+    }
+
+    #[test]
+    fn cosine_directions_have_the_moments_of_their_density() {
+        // ∫ cos θ · cos θ/π dω = 2/3 and ∫ cos² θ · cos θ/π dω = 1/2; 4096 Sobol points are good to about 1e-4.
+        let n = 4096;
+        let (mut first, mut second) = (0.0, 0.0);
+        for i in 0..n {
+            let z = f64::from(cosine_hemisphere(sobol2(i, 0, 3)).z);
+            first += z / f64::from(n);
+            second += z * z / f64::from(n);
+        }
+        assert!((first - 2.0 / 3.0).abs() < 1e-3 && (second - 0.5).abs() < 1e-3, "{first} {second}");
+    }
+
+    #[test]
+    fn triangle_points_stay_inside_and_average_to_the_centroid() {
+        let n = 4096;
+        let mut mean = Vec2::ZERO;
+        for i in 0..n {
+            let weights = triangle(sobol2(i, 0, 9));
+            assert!(weights.min_element() >= 0.0 && weights.element_sum() <= 1.0);
+            mean += weights / n as f32;
+        }
+        assert!(mean.abs_diff_eq(Vec2::splat(1.0 / 3.0), 1e-3), "{mean}");
+    }
+
+    #[test]
+    fn the_centre_of_the_square_is_the_centre_of_the_disc() {
+        assert_eq!(disc(Vec2::splat(0.5)), Vec2::ZERO);
+        assert!((disc(Vec2::new(1.0, 0.5)).length() - 1.0).abs() < 1e-6);
+    }
+}
