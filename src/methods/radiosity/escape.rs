@@ -13,31 +13,21 @@ pub const ESCAPE_RAYS: u32 = 1024;
 /// Marks this use of (seed, step) among the others.
 const PASS: u64 = 0x65_7363_6170_65;
 
-/// Shares of a shooter's cosine-distributed rays, each in [0, 1].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Outlook {
-    /// Meet nothing.
-    pub escaped: f64,
-    /// Meet a side that light cannot reach. They start where something stands on the patch and hides it.
-    pub hidden: f64,
-}
-
-/// Looks out from a patch with [`ESCAPE_RAYS`] rays.
-pub fn look_out(world: &World, patch: &Patch, seed: u64, step: u64) -> Outlook {
+/// The share of the cosine-distributed rays from a patch that meet nothing, of [`ESCAPE_RAYS`], in [0, 1]. Rays that
+/// meet a side which light cannot reach start where something stands on the patch and covers it: they do not count.
+pub fn escaping_share(world: &World, patch: &Patch, seed: u64, step: u64) -> f64 {
     let seed = hash(seed, step, PASS) as u32;
     let count = |i: u32| {
         let origin = world.tracer.lift(point(patch, sobol2(i, 0, seed)), patch.normal);
         let direction = frame(patch.normal) * cosine_hemisphere(sobol2(i, 1, seed));
         match world.tracer.closest(&Ray { origin, direction }) {
-            None => [1, 0],
-            Some(hit) if world.mesh.side(hit.polygon, hit.is_front).is_none() => [0, 1],
-            Some(_) => [0, 0],
+            None => [1, 1],
+            Some(hit) => [0, u32::from(world.mesh.side(hit.polygon, hit.is_front).is_some())],
         }
     };
-    let [escaped, hidden] =
-        (0..ESCAPE_RAYS).into_par_iter().map(count).reduce(|| [0_u32; 2], |a, b| [a[0] + b[0], a[1] + b[1]]);
-    let share = |rays: u32| f64::from(rays) / f64::from(ESCAPE_RAYS);
-    Outlook { escaped: share(escaped), hidden: share(hidden) }
+    let [escaped, counted] =
+        (0..ESCAPE_RAYS).into_par_iter().map(count).reduce(|| [0; 2], |a, b| [a[0] + b[0], a[1] + b[1]]);
+    f64::from(escaped) / f64::from(counted.max(1))
 }
 
 fn point(patch: &Patch, at: Vec2) -> Vec3A {
