@@ -5,4 +5,5 @@ pub mod methods;
 pub mod scene;
 pub mod solution;
 pub mod tracer;
+pub mod worker;
 pub mod world;

@@ -181,6 +181,15 @@ impl Method for Radiosity {
         Step::Advanced
     }
 
+    /// The stop rule may change on the way; everything else would have led elsewhere from the first shot.
+    fn configure(&mut self, settings: &Settings) -> bool {
+        let same = Settings { unshot_limit: settings.unshot_limit, ..self.settings } == *settings;
+        if same {
+            self.settings = *settings;
+        }
+        same
+    }
+
     fn solution(&self) -> Solution {
         Solution {
             steps: self.steps,
