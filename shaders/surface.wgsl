@@ -28,29 +28,65 @@ struct Drawn {
 fn vertex(@builtin(vertex_index) index: u32) -> Corner {
     let element = index / 4u;
     let corner = index % 4u;
-    let position = triple(&positions, elements[element][corner]);
+    let at = position(elements[element][corner]);
     let uv = vec2(f32(corner == 1u || corner == 2u), f32(corner >= 2u));
-    return Corner(frame.clip_from_unit * vec4(position, 1.0), element, uv);
+    return Corner(frame.clip_from_unit * vec4(at, 1.0), element, uv);
 }
 
 @fragment
 fn fragment_constant(corner: Corner) -> Drawn {
-    return drawn(corner, triple(&values, corner.element));
+    return drawn(corner, value(corner.element));
 }
 
 // Linear over a triangle, bilinear over a quad, so that no diagonal shows (Gouraud 1971).
 @fragment
 fn fragment_smooth(corner: Corner) -> Drawn {
     let corners = elements[corner.element];
-    let at_0 = triple(&values, corners.x);
-    let at_1 = triple(&values, corners.y);
-    let at_2 = triple(&values, corners.z);
+    let at_0 = value(corners.x);
+    let at_1 = value(corners.y);
+    let at_2 = value(corners.z);
     // The pixel's centre may lie just outside of the element that covers some of its samples.
     var uv = saturate(corner.uv);
     if corners.w == NONE {
         uv.y = min(uv.y, uv.x);
         return drawn(corner, at_0 + uv.x * (at_1 - at_0) + uv.y * (at_2 - at_1));
     }
-    let at_3 = triple(&values, corners.w);
+    let at_3 = value(corners.w);
     return drawn(corner, mix(mix(at_0, at_1, uv.x), mix(at_3, at_2, uv.x), uv.y));
+}
+
+fn position(vertex: u32) -> vec3<f32> {
+    return vec3(positions[3u * vertex], positions[3u * vertex + 1u], positions[3u * vertex + 2u]);
+}
+
+fn value(index: u32) -> vec3<f32> {
+    return vec3(values[3u * index], values[3u * index + 1u], values[3u * index + 2u]);
+}
+
+fn drawn(corner: Corner, value: vec3<f32>) -> Drawn {
+    var line = 0.0;
+    if frame.line_width > 0.0 {
+        line = outline_coverage(corner.uv, elements[corner.element].w == NONE);
+    }
+    return Drawn(vec4(frame.scale * value, 1.0), vec2(line, 0.0));
+}
+
+// How much of the pixel the outline of its element covers, from the distance to the nearest edge (Baerentzen, Nielsen,
+// Gjoel, Larsen, Christensen 2006). What hides a surface hides its outline, so no depth has to be biased.
+fn outline_coverage(uv: vec2<f32>, is_triangle: bool) -> f32 {
+    // Change over one pixel.
+    let step = vec2(length(vec2(dpdx(uv.x), dpdy(uv.x))), length(vec2(dpdx(uv.y), dpdy(uv.y))));
+    let diagonal = uv.x - uv.y;
+    let diagonal_step = length(vec2(dpdx(diagonal), dpdy(diagonal)));
+    let near_edges = uv / step;
+    let far_edges = (1.0 - uv) / step;
+    var pixels = min(near_edges.y, far_edges.x);
+    if is_triangle {
+        pixels = min(pixels, diagonal / diagonal_step);
+    } else {
+        pixels = min(pixels, min(near_edges.x, far_edges.y));
+    }
+    // Each of two neighbours draws its half. Outlines fade before they would fill elements of a few pixels.
+    let fade = saturate(0.25 / max(step.x, step.y) - 0.5);
+    return fade * saturate(0.5 * frame.line_width + 0.5 - pixels);
 }

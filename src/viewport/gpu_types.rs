@@ -31,5 +31,4 @@ pub struct DisplayUniform {
     pub exposure: f32,
     pub tone: u32,
     pub encode: u32,
-    pub padding: u32,
 }
