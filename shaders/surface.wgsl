@@ -71,22 +71,22 @@ fn drawn(corner: Corner, value: vec3<f32>) -> Drawn {
     return Drawn(vec4(frame.scale * value, 1.0), vec2(line, 0.0));
 }
 
-// How much of the pixel the outline of its element covers, from the distance to the nearest edge (Baerentzen, Nielsen,
-// Gjoel, Larsen, Christensen 2006). What hides a surface hides its outline, so no depth has to be biased.
+// How much of the pixel the outline of its element covers, from the distance to each edge (Baerentzen, Nielsen, Gjoel,
+// Larsen, Christensen 2006). What hides a surface hides its outline, so no depth has to be biased.
 fn outline_coverage(uv: vec2<f32>, is_triangle: bool) -> f32 {
-    // Change over one pixel.
-    let step = vec2(length(vec2(dpdx(uv.x), dpdy(uv.x))), length(vec2(dpdx(uv.y), dpdy(uv.y))));
-    let diagonal = uv.x - uv.y;
-    let diagonal_step = length(vec2(dpdx(diagonal), dpdy(diagonal)));
-    let near_edges = uv / step;
-    let far_edges = (1.0 - uv) / step;
-    var pixels = min(near_edges.y, far_edges.x);
-    if is_triangle {
-        pixels = min(pixels, diagonal / diagonal_step);
-    } else {
-        pixels = min(pixels, min(near_edges.x, far_edges.y));
-    }
-    // Each of two neighbours draws its half. Outlines fade before they would fill elements of a few pixels.
-    let fade = saturate(0.25 / max(step.x, step.y) - 0.5);
-    return fade * saturate(0.5 * frame.line_width + 0.5 - pixels);
+    let across = line_coverage(uv.x, true, !is_triangle);
+    let along = line_coverage(uv.y, !is_triangle, true);
+    let diagonal = line_coverage(uv.x - uv.y, false, is_triangle);
+    return max(max(across, along), diagonal);
+}
+
+// Coverage by the lines on which `x`, which changes evenly over the picture, is 0 and 1, where they are wanted.
+fn line_coverage(x: f32, at_one: bool, at_zero: bool) -> f32 {
+    let step = length(vec2(dpdx(x), dpdy(x)));
+    let to_one = select(1e9, (1.0 - x) / step, at_one);
+    let to_zero = select(1e9, x / step, at_zero);
+    // Lines that are only a few pixels apart fade before they would fill the picture.
+    let fade = saturate(0.25 / step - 0.5);
+    // Each of two neighbours draws its half.
+    return fade * saturate(0.5 * frame.line_width + 0.5 - min(to_one, to_zero));
 }
