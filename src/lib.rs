@@ -1,3 +1,7 @@
 pub mod cancel;
 pub mod math;
+pub mod mesh;
+pub mod scene;
+pub mod solution;
 pub mod tracer;
+pub mod world;

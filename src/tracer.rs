@@ -174,8 +174,9 @@ impl Shear {
     }
 
     /// Distance along the ray within its limits, or infinity. In the sheared plane a triangle is hit where its three
-    /// edge functions agree in sign; both triangles at an edge compute the same value for it, and a rounded difference
-    /// of products has the right sign or is 0, in which case it is computed again without rounding.
+    /// edge functions agree in sign. Both triangles at an edge compute the same value for it, and a rounded difference
+    /// of two products has the right sign or is 0; since 0 agrees with either sign, there is no gap, and the original's
+    /// second try in double precision, which decides which of the two triangles is hit, is not needed.
     #[inline(always)]
     fn intersect(&self, triangle: &Triangle, ray: &FrameRay) -> f32 {
         let [x, y, z] = self.axes;
@@ -187,12 +188,9 @@ impl Shear {
             [across, along, self.factors[2] * depth]
         });
         let [a, b, c] = sheared;
-        let mut u = c[0] * b[1] - c[1] * b[0];
-        let mut v = a[0] * c[1] - a[1] * c[0];
-        let mut w = b[0] * a[1] - b[1] * a[0];
-        if u == 0.0 || v == 0.0 || w == 0.0 {
-            [u, v, w] = exact_edge_functions(a, b, c);
-        }
+        let u = c[0] * b[1] - c[1] * b[0];
+        let v = a[0] * c[1] - a[1] * c[0];
+        let w = b[0] * a[1] - b[1] * a[0];
         let any_negative = u < 0.0 || v < 0.0 || w < 0.0;
         let any_positive = u > 0.0 || v > 0.0 || w > 0.0;
         let determinant = u + v + w;
@@ -202,13 +200,4 @@ impl Shear {
         let distance = (u * a[2] + v * b[2] + w * c[2]) / determinant;
         if distance >= ray.tmin && distance <= ray.tmax { distance } else { f32::INFINITY }
     }
-}
-
-/// Products of two f32 are exact in f64, so the signs of their differences are right.
-#[cold]
-fn exact_edge_functions(a: [f32; 3], b: [f32; 3], c: [f32; 3]) -> [f32; 3] {
-    let cross = |p: [f32; 3], q: [f32; 3]| {
-        (f64::from(p[0]) * f64::from(q[1]) - f64::from(p[1]) * f64::from(q[0])) as f32
-    };
-    [cross(c, b), cross(a, c), cross(b, a)]
 }

@@ -13,6 +13,35 @@ pub struct Finding {
     pub remedy: String,
 }
 
+impl Finding {
+    /// Something worth knowing that leaves the picture as its author meant it.
+    pub fn note(
+        kind: FindingKind,
+        subject: impl Into<String>,
+        problem: impl Into<String>,
+        remedy: impl Into<String>,
+    ) -> Self {
+        Self { severity: Severity::Note, kind, subject: subject.into(), problem: problem.into(), remedy: remedy.into() }
+    }
+
+    /// Something because of which the picture is likely to differ from what its author meant.
+    pub fn warning(
+        kind: FindingKind,
+        subject: impl Into<String>,
+        problem: impl Into<String>,
+        remedy: impl Into<String>,
+    ) -> Self {
+        Self { severity: Severity::Warning, ..Self::note(kind, subject, problem, remedy) }
+    }
+}
+
+/// `object 'lamp', line 12: the face has no area; left out`
+impl std::fmt::Display for Finding {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}: {}; {}", self.subject, self.problem, self.remedy)
+    }
+}
+
 /// Whether the picture is likely to differ from what the author meant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -28,6 +57,7 @@ pub enum FindingKind {
     DegenerateFace,
     DuplicateFace,
     NonPlanarFace,
+    CrossedFace,
     NonFiniteVertex,
     MalformedLine,
     IndexOutOfRange,

@@ -17,7 +17,8 @@ pub struct Material {
     pub emission: Rgb,
     /// Index of refraction (`Ni`).
     pub refraction_index: f32,
-    /// Transmission filter (`Tf`), each channel in [0, 1].
+    /// Transmission filter (`Tf`), each channel in [0, 1]: which share passes of the light that goes through. It says
+    /// nothing about an opaque material. 1 where the file states none.
     pub transmission: Rgb,
     /// Opacity in [0, 1] (`d`, or 1 − `Tr`).
     pub opacity: f32,
@@ -38,7 +39,7 @@ impl Material {
             shininess: 10.0,
             emission: Rgb::ZERO,
             refraction_index: 1.0,
-            transmission: Rgb::ZERO,
+            transmission: Rgb::ONE,
             opacity: 1.0,
             illumination_model: None,
         }

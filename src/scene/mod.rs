@@ -2,15 +2,19 @@
 
 mod builtin;
 mod doctor;
+mod light;
+mod lines;
 mod material;
+mod mtl;
 mod obj;
+mod polygonize;
 
 pub use builtin::{BUILTINS, Builtin};
 pub use doctor::{Finding, FindingKind, Severity};
 pub use material::Material;
 
-use crate::math::rgb::Rgb;
 use glam::Vec3;
+use std::io;
 use std::path::{Path, PathBuf};
 
 /// A scene as its file describes it, mended where that was possible. Lengths are in metres, y is up.
@@ -32,6 +36,45 @@ pub struct Scene {
     pub viewpoint: Option<Viewpoint>,
     /// What was wrong with the file and what was done about it.
     pub findings: Vec<Finding>,
+}
+
+impl Scene {
+    /// Opens a scene by the name of a built-in one or else by its path.
+    ///
+    /// # Errors
+    /// Where there is no such file, it is no text, or it holds no face that can be used. Lesser troubles are mended and
+    /// become [`Scene::findings`].
+    pub fn open(name_or_path: &str) -> Result<Self, SceneError> {
+        match Builtin::find(name_or_path) {
+            Some(builtin) => builtin.open(),
+            None => Self::open_file(Path::new(name_or_path)),
+        }
+    }
+
+    fn open_file(path: &Path) -> Result<Self, SceneError> {
+        let text = read_text(path).map_err(|source| match source.kind() {
+            io::ErrorKind::NotFound => {
+                let known = BUILTINS.iter().map(|builtin| builtin.name).collect::<Vec<_>>().join(", ");
+                SceneError::Unknown { name: path.display().to_string(), known }
+            }
+            _ => SceneError::Read { path: path.to_owned(), source },
+        })?;
+        let name = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
+        let folder = path.parent().unwrap_or(Path::new(""));
+        // Files written on Windows may have its separators.
+        let mut load_library = |file: &str| read_text(&folder.join(file.replace('\\', "/")));
+        let source = Source::File(path.to_owned());
+        obj::read(&text, &name, source, &path.display().to_string(), &mut load_library)
+    }
+}
+
+/// Reads a text file of any encoding that extends ASCII.
+fn read_text(path: &Path) -> io::Result<String> {
+    let bytes = std::fs::read(path)?;
+    if bytes.contains(&0) {
+        return Err(io::Error::new(io::ErrorKind::InvalidData, "it is not a text file"));
+    }
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
 }
 
 /// Where a scene comes from: a path, or the name of a scene that is built into the program.
@@ -66,6 +109,12 @@ impl Polygon {
         Self { corners: padded, corner_count: corners.len() as u8, material, object, line }
     }
 
+    /// The same face with its front and back exchanged.
+    pub fn turned(&self) -> Self {
+        let corners: Vec<u32> = self.corners().iter().rev().copied().collect();
+        Self::new(&corners, self.material, self.object, self.line)
+    }
+
     /// Indices of the corner positions, counter-clockwise seen from the front.
     pub fn corners(&self) -> &[u32] {
         &self.corners[..self.corner_count as usize]
@@ -86,11 +135,9 @@ pub struct Viewpoint {
 #[derive(Debug, thiserror::Error)]
 pub enum SceneError {
     #[error("cannot read {path}")]
-    Read { path: PathBuf, source: std::io::Error },
+    Read { path: PathBuf, source: io::Error },
     #[error("no scene is called `{name}`, and there is no such file (built-in scenes: {known})")]
     Unknown { name: String, known: String },
     #[error("{path} has no face that can be used: {reason}")]
     Empty { path: String, reason: String },
-    #[error("{path}, line {line}: {reason}")]
-    Malformed { path: String, line: usize, reason: String },
 }

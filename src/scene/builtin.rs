@@ -1,0 +1,70 @@
+//! Scenes that are part of the program.
+
+use super::{Scene, SceneError, Source, Viewpoint, obj};
+use glam::Vec3;
+use std::io;
+
+/// A scene whose files are embedded in the program.
+#[derive(Debug)]
+pub struct Builtin {
+    pub name: &'static str,
+    /// One line.
+    pub description: &'static str,
+    pub viewpoint: Option<Viewpoint>,
+    obj: &'static str,
+    mtl: &'static str,
+}
+
+/// Every built-in scene, in the order in which they are listed.
+pub const BUILTINS: &[Builtin] = &[
+    Builtin {
+        name: "cornell-box",
+        description: "the Cornell box as it was measured: two blocks under a square lamp, between a red and a green wall",
+        viewpoint: Some(CORNELL_CAMERA),
+        obj: include_str!("../../assets/scenes/cornell-box.obj"),
+        mtl: include_str!("../../assets/scenes/cornell-box.mtl"),
+    },
+    Builtin {
+        name: "empty-box",
+        description: "the Cornell box without its blocks",
+        viewpoint: Some(CORNELL_CAMERA),
+        obj: include_str!("../../assets/scenes/empty-box.obj"),
+        mtl: include_str!("../../assets/scenes/empty-box.mtl"),
+    },
+    Builtin {
+        name: "furnace",
+        description: "a closed cube that glows and reflects alike on all sides, so that B = M_e / (1 - rho) = 2 W/m2",
+        viewpoint: Some(Viewpoint {
+            eye: Vec3::new(0.5, 0.5, 0.95),
+            target: Vec3::new(0.5, 0.5, 0.0),
+            up: Vec3::Y,
+            vertical_fov: 60.0,
+        }),
+        obj: include_str!("../../assets/scenes/furnace.obj"),
+        mtl: include_str!("../../assets/scenes/furnace.mtl"),
+    },
+];
+
+/// The measured camera: 35 mm focal length and a film of 25 mm, so a vertical angle of 2 atan(12.5 / 35).
+const CORNELL_CAMERA: Viewpoint = Viewpoint {
+    eye: Vec3::new(0.278, 0.273, -0.8),
+    target: Vec3::new(0.278, 0.273, 0.2796),
+    up: Vec3::Y,
+    vertical_fov: 39.307_65,
+};
+
+impl Builtin {
+    /// The built-in scene of this name.
+    pub fn find(name: &str) -> Option<&'static Self> {
+        BUILTINS.iter().find(|builtin| builtin.name == name)
+    }
+
+    pub(super) fn open(&'static self) -> Result<Scene, SceneError> {
+        let mut load_library = |file: &str| {
+            let is_own = file.strip_suffix(".mtl") == Some(self.name);
+            if is_own { Ok(self.mtl.to_owned()) } else { Err(io::ErrorKind::NotFound.into()) }
+        };
+        let scene = obj::read(self.obj, self.name, Source::Builtin(self.name), self.name, &mut load_library)?;
+        Ok(Scene { viewpoint: self.viewpoint, ..scene })
+    }
+}

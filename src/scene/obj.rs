@@ -1,0 +1,267 @@
+//! From the text of an OBJ file and its material libraries to a scene.
+
+use super::doctor::{Finding, FindingKind};
+use super::lines::{self, CheckedObj};
+use super::material::Material;
+use super::mtl::Library;
+use super::polygonize::{Shape, polygonize, without_repeated_corners};
+use super::{Polygon, Scene, SceneError, Source};
+use glam::Vec3;
+use std::collections::{HashMap, HashSet};
+use std::io;
+
+/// Reads a scene. `path` is what messages call the file, `load_library` returns the text of a material library by the
+/// name that stands behind `mtllib`.
+///
+/// # Errors
+/// [`SceneError::Empty`] where no face can be used. Everything else that is wrong is mended and becomes a finding.
+pub fn read(
+    text: &str,
+    name: &str,
+    source: Source,
+    path: &str,
+    load_library: &mut dyn FnMut(&str) -> io::Result<String>,
+) -> Result<Scene, SceneError> {
+    let mut checked = lines::check_obj(text);
+    let mut findings = std::mem::take(&mut checked.findings);
+    let library = load_libraries(&checked.libraries, load_library, &mut findings);
+    report_missing_materials(&checked, &library, &mut findings);
+    let empty = |reason: String| SceneError::Empty { path: path.to_owned(), reason };
+    if checked.face_lines.is_empty() {
+        return Err(empty(why_no_face(text, &checked, &findings)));
+    }
+    let models = parse(&checked.text, &library).map_err(|error| empty(error.to_string()))?;
+    let mut assembler = Assembler::new(library, findings);
+    let mut face_lines = checked.face_lines.iter().copied();
+    for model in &models {
+        assembler.model(model, &mut face_lines);
+    }
+    if assembler.polygons.is_empty() {
+        return Err(empty(why_no_face(text, &checked, &assembler.findings)));
+    }
+    Ok(assembler.finish(name, source))
+}
+
+fn load_libraries(
+    names: &[(u32, String)],
+    load: &mut dyn FnMut(&str) -> io::Result<String>,
+    findings: &mut Vec<Finding>,
+) -> Library {
+    let mut library = Library::default();
+    for (line, argument) in names {
+        // The argument is one name, which may hold spaces, or else several names.
+        let loaded = load(argument).map(|text| vec![(argument.as_str(), text)]).or_else(|error| {
+            let several: io::Result<Vec<_>> = argument.split_whitespace().map(|name| Ok((name, load(name)?))).collect();
+            several.map_err(|_| error)
+        });
+        match loaded {
+            Ok(texts) => texts.iter().for_each(|(name, text)| library.read(text, name)),
+            Err(error) => findings.push(Finding::warning(
+                FindingKind::MissingMaterialFile,
+                format!("material file '{argument}', line {line}"),
+                format!("it cannot be read: {error}"),
+                "its materials are missing",
+            )),
+        }
+    }
+    findings.append(&mut library.findings);
+    library
+}
+
+fn report_missing_materials(checked: &CheckedObj, library: &Library, findings: &mut Vec<Finding>) {
+    let mut reported = HashSet::new();
+    for (line, name) in &checked.material_uses {
+        if !library.index.contains_key(name) && reported.insert(name) {
+            findings.push(Finding::warning(
+                FindingKind::MissingMaterial,
+                format!("material '{name}', line {line}"),
+                "no material file states it",
+                "its faces are grey",
+            ));
+        }
+    }
+    if let Some(line) = checked.first_bare_face {
+        findings.push(Finding::warning(
+            FindingKind::MissingMaterial,
+            format!("line {line}"),
+            "faces from here on name no material",
+            "they are grey",
+        ));
+    }
+}
+
+fn why_no_face(text: &str, checked: &CheckedObj, findings: &[Finding]) -> String {
+    if text.trim().is_empty() {
+        return "the file is empty".to_owned();
+    }
+    match checked.face_count {
+        0 => "it has no line that begins with `f`".to_owned(),
+        count => {
+            let first = findings.first().map_or(String::new(), |finding| format!(" ({finding})"));
+            format!("none of its {count} faces can be used{first}")
+        }
+    }
+}
+
+/// Hands the checked text to the parser, for which all material libraries are one, loaded beforehand.
+fn parse(text: &str, library: &Library) -> Result<Vec<tobj::Model>, tobj::LoadError> {
+    let text = format!("mtllib all\n{text}");
+    let index = || library.index.iter().map(|(name, &place)| (name.clone(), place)).collect();
+    let options = tobj::LoadOptions::default();
+    tobj::load_obj_buf(&mut text.as_bytes(), &options, |_| Ok((Vec::new(), index()))).map(|(models, _)| models)
+}
+
+/// Collects the scene, model by model.
+struct Assembler {
+    library: Library,
+    findings: Vec<Finding>,
+    positions: Vec<Vec3>,
+    polygons: Vec<Polygon>,
+    /// For each material of the scene its place in the library; `None` is the grey one.
+    materials: Vec<Option<usize>>,
+    objects: Vec<String>,
+    welded: HashMap<[u32; 3], u32>,
+    material_index: HashMap<Option<usize>, u32>,
+    object_index: HashMap<String, u32>,
+    /// Sorted corners and material of each face so far, with its line.
+    faces: HashMap<Vec<u32>, (u32, u32)>,
+}
+
+impl Assembler {
+    fn new(library: Library, findings: Vec<Finding>) -> Self {
+        Self {
+            library,
+            findings,
+            positions: Vec::new(),
+            polygons: Vec::new(),
+            materials: Vec::new(),
+            objects: Vec::new(),
+            welded: HashMap::new(),
+            material_index: HashMap::new(),
+            object_index: HashMap::new(),
+            faces: HashMap::new(),
+        }
+    }
+
+    /// Adds the faces of one model: one object's with one material. The parser keeps the faces' order, so their lines
+    /// come one after the other from `lines`.
+    fn model(&mut self, model: &tobj::Model, lines: &mut impl Iterator<Item = u32>) {
+        let mesh = &model.mesh;
+        if mesh.indices.is_empty() {
+            return;
+        }
+        let welded: Vec<u32> = mesh.positions.chunks_exact(3).map(|p| self.weld(Vec3::from_slice(p))).collect();
+        let material = self.material(mesh.material_id);
+        let object = self.object(&model.name);
+        // The parser leaves the arities out where all faces are triangles.
+        let all_triangles = vec![3; if mesh.face_arities.is_empty() { mesh.indices.len() / 3 } else { 0 }];
+        let mut rest = mesh.indices.as_slice();
+        for (&arity, line) in mesh.face_arities.iter().chain(&all_triangles).zip(lines) {
+            let (face, after) = rest.split_at(arity as usize);
+            rest = after;
+            let corners: Vec<u32> = face.iter().map(|&corner| welded[corner as usize]).collect();
+            self.face(&corners, material, object, line);
+        }
+    }
+
+    fn face(&mut self, corners: &[u32], material: u32, object: u32, line: u32) {
+        let corners = without_repeated_corners(corners);
+        let subject = format!("object '{}', line {line}", self.objects[object as usize]);
+        if let Some(finding) = self.duplicate(&corners, material, line, &subject) {
+            self.findings.push(finding);
+            return;
+        }
+        let polygons = &mut self.polygons;
+        let shape = polygonize(&self.positions, &corners, &mut |piece| {
+            polygons.push(Polygon::new(piece, material, object, line));
+        });
+        let (kind, problem, remedy) = match shape {
+            Shape::Planar => return,
+            Shape::Warped(share) => {
+                let problem =
+                    format!("its {} corners are not in one plane (off by {share:.1e} of its size)", corners.len());
+                (FindingKind::NonPlanarFace, problem, "cut into triangles")
+            }
+            Shape::Crossed => {
+                let problem = "its outline crosses itself".to_owned();
+                self.findings.push(Finding::warning(
+                    FindingKind::CrossedFace,
+                    subject,
+                    problem,
+                    "cut as far as possible",
+                ));
+                return;
+            }
+            Shape::Degenerate => (FindingKind::DegenerateFace, "the face has no area".to_owned(), "left out"),
+        };
+        self.findings.push(Finding::note(kind, subject, problem, remedy));
+    }
+
+    /// Whether a face with the same corners, in any order, came before.
+    fn duplicate(&mut self, corners: &[u32], material: u32, line: u32, subject: &str) -> Option<Finding> {
+        let mut key = corners.to_vec();
+        key.sort_unstable();
+        let (first_line, first_material) = *self.faces.entry(key).or_insert((line, material));
+        if first_line == line {
+            return None;
+        }
+        let problem = format!("it has the same corners as the face of line {first_line}");
+        let kind = FindingKind::DuplicateFace;
+        Some(if first_material == material {
+            Finding::note(kind, subject, problem, "left out")
+        } else {
+            Finding::warning(kind, subject, format!("{problem}, but another material"), "left out")
+        })
+    }
+
+    /// The index of a position; corners at exactly the same place share one.
+    fn weld(&mut self, position: Vec3) -> u32 {
+        // Adding zero turns −0 into +0, which is the same place.
+        let key = (position + Vec3::ZERO).to_array().map(f32::to_bits);
+        *self.welded.entry(key).or_insert_with(|| {
+            self.positions.push(position);
+            self.positions.len() as u32 - 1
+        })
+    }
+
+    fn material(&mut self, place: Option<usize>) -> u32 {
+        *self.material_index.entry(place).or_insert_with(|| {
+            self.materials.push(place);
+            self.materials.len() as u32 - 1
+        })
+    }
+
+    fn object(&mut self, name: &str) -> u32 {
+        *self.object_index.entry(name.to_owned()).or_insert_with(|| {
+            self.objects.push(name.to_owned());
+            self.objects.len() as u32 - 1
+        })
+    }
+
+    fn finish(self, name: &str, source: Source) -> Scene {
+        let Self { library, mut findings, positions, polygons, materials, objects, .. } = self;
+        let mut entries: Vec<_> = library.entries.into_iter().map(Some).collect();
+        let mut take = |place: usize| entries[place].take().map(|entry| entry.into_material_and_findings());
+        let materials = materials
+            .into_iter()
+            .map(|place| match place.and_then(&mut take) {
+                Some((material, mut mended)) => {
+                    findings.append(&mut mended);
+                    material
+                }
+                None => Material::grey("grey"),
+            })
+            .collect();
+        let mut scene =
+            Scene { name: name.to_owned(), source, positions, polygons, materials, objects, viewpoint: None, findings };
+        if !scene.has_emitter() {
+            scene.findings.push(Finding::warning(
+                FindingKind::NoEmitter,
+                "the scene",
+                "no surface emits light",
+                "it stays dark unless a ceiling light is added",
+            ));
+        }
+        scene
+    }
+}

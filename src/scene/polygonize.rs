@@ -1,0 +1,187 @@
+//! Faces of any size cut into triangles and planar convex quads, with their winding kept.
+//!
+//! All measures are relative, so a scene scaled by 1e-6 or 1e6 is cut in the same way.
+
+use earcut::Earcut;
+use glam::{DVec3, Vec3};
+use std::collections::HashMap;
+
+/// How far the corners of a quad may be apart along its normal, in units of its largest coordinate.
+///
+/// A quad is sampled on the bilinear surface through its corners and traced as two triangles. Between the two lies at
+/// most half of this distance: 8 ε, well inside the 32 ε by which ray origins are moved off a surface, so no
+/// sample of the quad is hidden behind its own triangles. It also is what rounding to single precision, or to
+/// six decimals in a scene of a few metres, does to a flat quad. Anything more is cut into two triangles.
+const PLANARITY: f64 = 16.0 * f32::EPSILON as f64;
+
+/// A piece whose area is below this share of its longest edge squared has no usable normal.
+const DEGENERATE: f64 = 1.0 / (1 << 20) as f64;
+
+/// Smallest sine of a corner of a quad that is kept: below it three corners count as lying on a line.
+const SMALLEST_CORNER: f64 = 1e-3;
+
+/// What a face looked like.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shape {
+    Planar,
+    /// Its corners are apart along its normal by this share of its size.
+    Warped(f64),
+    /// Its outline crosses itself.
+    Crossed,
+    /// It has no area; nothing was made of it.
+    Degenerate,
+}
+
+/// The corners of a face without consecutive repetitions, in the sense of a ring.
+pub fn without_repeated_corners(corners: &[u32]) -> Vec<u32> {
+    let mut ring = corners.to_vec();
+    ring.dedup();
+    while ring.len() > 1 && ring.first() == ring.last() {
+        ring.pop();
+    }
+    ring
+}
+
+/// Cuts a face and hands each piece (indices of three or four positions) to `emit`.
+///
+/// A triangle, and a quad that is planar and convex, stay whole. Another quad is cut along the diagonal that leaves
+/// the larger smallest piece. A face of more corners is projected along its normal (Newell's, from Sutherland, Sproull,
+/// Schumacker 1974) and triangulated by ear clipping.
+pub fn polygonize(positions: &[Vec3], corners: &[u32], emit: &mut impl FnMut(&[u32])) -> Shape {
+    let Some(face) = Face::new(positions, corners) else { return Shape::Degenerate };
+    let shape = face.shape();
+    let triangles = match corners.len() {
+        3 => vec![[0, 1, 2]],
+        4 if shape == Shape::Planar && face.is_convex_quad() => {
+            emit(corners);
+            return shape;
+        }
+        4 => face.cut_quad(),
+        _ => face.clip_ears(),
+    };
+    let mut covered = 0.0;
+    for triangle in triangles {
+        covered += face.signed_area(triangle).abs();
+        if !face.is_sliver(triangle) {
+            emit(&triangle.map(|corner| corners[corner]));
+        }
+    }
+    // Triangles that overlap or face backwards cover more than the outline encloses.
+    if (covered - face.area).abs() > 1e-3 * face.area { Shape::Crossed } else { shape }
+}
+
+/// A face in its own frame: the first corner at the origin, the farthest one from it at distance 1.
+struct Face {
+    points: Vec<DVec3>,
+    normal: DVec3,
+    area: f64,
+    /// Largest coordinate of the face in this frame's unit of length.
+    largest_coordinate: f64,
+}
+
+impl Face {
+    /// `None` where the face has no area.
+    fn new(positions: &[Vec3], corners: &[u32]) -> Option<Self> {
+        let mut points: Vec<DVec3> = corners.iter().map(|&corner| positions[corner as usize].as_dvec3()).collect();
+        let largest_coordinate = points.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
+        let origin = *points.first()?;
+        let size = points.iter().map(|p| p.distance(origin)).fold(0.0, f64::max);
+        if size == 0.0 {
+            return None;
+        }
+        for point in &mut points {
+            *point = (*point - origin) / size;
+        }
+        let double_area: DVec3 = edges(&points).map(|(from, to)| from.cross(to)).sum();
+        let longest = edges(&points).map(|(from, to)| from.distance_squared(to)).fold(0.0, f64::max);
+        (double_area.length() > DEGENERATE * longest).then(|| Self {
+            normal: double_area.normalize(),
+            area: 0.5 * double_area.length(),
+            largest_coordinate: largest_coordinate / size,
+            points,
+        })
+    }
+
+    fn shape(&self) -> Shape {
+        let heights = self.points.iter().map(|p| p.dot(self.normal));
+        let (low, high) = heights.fold((0.0, 0.0), |(low, high): (f64, f64), h| (low.min(h), high.max(h)));
+        let is_planar = high - low <= PLANARITY * self.largest_coordinate;
+        if is_planar { Shape::Planar } else { Shape::Warped(high - low) }
+    }
+
+    fn is_convex_quad(&self) -> bool {
+        (0..4).all(|corner| {
+            let point = self.points[corner];
+            let (incoming, outgoing) = (point - self.points[(corner + 3) % 4], self.points[(corner + 1) % 4] - point);
+            let sine = incoming.normalize().cross(outgoing.normalize()).dot(self.normal);
+            sine >= SMALLEST_CORNER
+        })
+    }
+
+    fn cut_quad(&self) -> Vec<[usize; 3]> {
+        let cuts = [[[0, 1, 2], [0, 2, 3]], [[1, 2, 3], [1, 3, 0]]];
+        let smallest = |cut: [[usize; 3]; 2]| self.signed_area(cut[0]).min(self.signed_area(cut[1]));
+        let best = if smallest(cuts[0]) >= smallest(cuts[1]) { cuts[0] } else { cuts[1] };
+        best.to_vec()
+    }
+
+    fn clip_ears(&self) -> Vec<[usize; 3]> {
+        let (x, y) = self.normal.any_orthonormal_pair();
+        let outline = self.points.iter().map(|p| [p.dot(x), p.dot(y)]);
+        let mut indices: Vec<u32> = Vec::new();
+        Earcut::new().earcut(outline, &[], &mut indices);
+        let mut triangles: Vec<[usize; 3]> =
+            indices.chunks_exact(3).map(|t| [t[0] as usize, t[1] as usize, t[2] as usize]).collect();
+        for triangle in &mut triangles {
+            if self.signed_area(*triangle) < 0.0 {
+                triangle.swap(1, 2);
+            }
+        }
+        restore_straight_corners(self.points.len(), &mut triangles);
+        triangles
+    }
+
+    /// Area seen against the face's normal; negative where the triangle winds the other way.
+    fn signed_area(&self, [a, b, c]: [usize; 3]) -> f64 {
+        let (a, b, c) = (self.points[a], self.points[b], self.points[c]);
+        0.5 * (b - a).cross(c - a).dot(self.normal)
+    }
+
+    fn is_sliver(&self, [a, b, c]: [usize; 3]) -> bool {
+        let corners = [self.points[a], self.points[b], self.points[c]];
+        let double_area = (corners[1] - corners[0]).cross(corners[2] - corners[0]).length();
+        let longest = edges(&corners).map(|(from, to)| from.distance_squared(to)).fold(0.0, f64::max);
+        double_area <= DEGENERATE * longest
+    }
+}
+
+/// Consecutive pairs of a ring.
+fn edges(points: &[DVec3]) -> impl Iterator<Item = (DVec3, DVec3)> + '_ {
+    points.iter().copied().zip(points.iter().copied().cycle().skip(1))
+}
+
+/// Ear clipping leaves out corners in the middle of a straight edge. A neighbour that uses such a corner would then meet
+/// this face without sharing an edge with it, and light could leak between them; so the triangle behind that edge is
+/// split at the corner.
+fn restore_straight_corners(corner_count: usize, triangles: &mut Vec<[usize; 3]>) {
+    let mut is_used = vec![false; corner_count];
+    let mut behind_edge = HashMap::new();
+    for (place, &[a, b, c]) in triangles.iter().enumerate() {
+        for (from, to) in [(a, b), (b, c), (c, a)] {
+            is_used[from] = true;
+            behind_edge.insert((from, to), place);
+        }
+    }
+    let used: Vec<usize> = (0..corner_count).filter(|&corner| is_used[corner]).collect();
+    for (&from, &to) in used.iter().zip(used.iter().cycle().skip(1)) {
+        let left_out = (to + corner_count - from) % corner_count - 1;
+        let Some(&place) = behind_edge.get(&(from, to)).filter(|_| left_out > 0) else { continue };
+        let Some(apex) = triangles[place].into_iter().find(|&corner| corner != from && corner != to) else { continue };
+        let along = |step: usize| (from + step) % corner_count;
+        triangles[place] = [from, along(1), apex];
+        for step in 1..=left_out {
+            triangles.push([along(step), along(step + 1), apex]);
+        }
+        behind_edge.insert((to, apex), triangles.len() - 1);
+    }
+}

@@ -1,0 +1,3 @@
+//! Shapes and oracles that several tests share.
+
+pub mod shapes;
