@@ -19,8 +19,10 @@ struct Display {
 // Colours of a screen before encoding.
 const BACKGROUND = vec3(0.018, 0.022, 0.030);
 const SHOOTER = vec3(0.0, 0.35, 1.0);
-// How far a line takes a pixel towards black or white, whichever it stands out from.
-const LINE_STRENGTH = 0.4;
+// How far a line takes a dark pixel towards white and a bright one towards black, which looks about the same.
+const LIGHTEN = 0.1;
+const DARKEN = 0.4;
+const MID_GREY = 0.18;
 
 struct Corner {
     @builtin(position) clip: vec4<f32>,
@@ -45,8 +47,8 @@ fn fragment(corner: Corner) -> @location(0) vec4<f32> {
     if stored.a > 0.0 {
         shown = mix(BACKGROUND, toned(display.exposure * stored.rgb / stored.a), stored.a);
     }
-    let line_colour = vec3(select(1.0, 0.0, luminance(shown) > 0.18));
-    shown = mix(shown, line_colour, LINE_STRENGTH * lines.r);
+    let is_dark = luminance(shown) < MID_GREY;
+    shown = mix(shown, vec3(select(0.0, 1.0, is_dark)), select(DARKEN, LIGHTEN, is_dark) * lines.r);
     shown = mix(shown, SHOOTER, lines.g);
     return vec4(select(shown, encoded(shown), display.encode != 0u), 1.0);
 }

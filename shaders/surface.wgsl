@@ -68,7 +68,12 @@ fn drawn(corner: Corner, value: vec3<f32>) -> Drawn {
     if frame.line_width > 0.0 {
         line = outline_coverage(corner.uv, elements[corner.element].w == NONE);
     }
-    return Drawn(vec4(frame.scale * value, 1.0), vec2(line, 0.0));
+    return Drawn(vec4(nearest_half(frame.scale * value), 1.0), vec2(line, 0.0));
+}
+
+// Rounded to the 11 bits of a half float. Adapters may cut the others off when they store it, which would darken pictures.
+fn nearest_half(value: vec3<f32>) -> vec3<f32> {
+    return bitcast<vec3<f32>>((bitcast<vec3<u32>>(value) + 0x1000u) & vec3(0xffffe000u));
 }
 
 // How much of the pixel the outline of its element covers, from the distance to each edge (Baerentzen, Nielsen, Gjoel,
