@@ -5,11 +5,16 @@ use lightwell::camera::Camera;
 use lightwell::cancel::Cancel;
 use lightwell::math::rgb::Rgb;
 use lightwell::mesh::{Element, MeshSettings};
+use lightwell::methods::radiosity::Radiosity;
+use lightwell::methods::{Method, Settings, Step};
 use lightwell::scene::{Material, Polygon, Scene, Source, Viewpoint};
 use lightwell::solution::{Closure, Counters, ElementLight, Energy, Solution};
-use lightwell::viewport::{AdapterChoice, Frame, Gpu, GpuError, Picture, ToneCurve, View, Viewport, render_picture};
+use lightwell::viewport::{
+    AdapterChoice, Frame, Gpu, GpuError, Picture, ToneCurve, View, Viewport, automatic_exposure, render_picture,
+};
 use lightwell::world::World;
 use std::f32::consts::PI;
+use std::sync::Arc;
 use std::time::Duration;
 
 /// Rounding to a half float, which has 11 bits, and a little of single precision before and after.
@@ -413,6 +418,41 @@ fn what_is_hidden_shows_neither_light_nor_outlines() {
     assert!(picture.linear.iter().all(|value| value[0] <= value[3] * (1.0 + HALF_ROUNDING)));
     solution.shooter = None;
     assert!(picture == render_picture(&gpu, &world, &solution, &frame, 4).expect("a picture"));
+}
+
+#[test]
+fn the_automatic_exposure_of_a_furnace_foresees_its_radiosity() {
+    // M_e = 1 and ρ = 0.5 everywhere: B = 2 in the end.
+    let world = Arc::new(build(Scene::open("furnace").expect("a built-in scene"), 0.5));
+    let mid_grey = (0.18 * PI / 2.0).log2();
+    let mut method = Radiosity::new(Arc::clone(&world), Settings::default());
+    for shot in 0..100 {
+        let exposure = automatic_exposure(&world, &method.solution());
+        // A shot leaves the ledger closed, but spreads light as evenly as its form factors allow.
+        let tolerance = if shot == 0 { 1e-6 } else { 0.02 };
+        assert!((exposure - mid_grey).abs() < tolerance, "{exposure} after {shot} shots, not {mid_grey}");
+        method.step(&Cancel::default());
+    }
+}
+
+#[test]
+fn the_automatic_exposure_hardly_changes_while_light_spreads() {
+    // Open to one side, so some light leaves, which only the first shot tells.
+    let world = Arc::new(build(Scene::open("empty-box").expect("a built-in scene"), 0.5));
+    let mut method = Radiosity::new(Arc::clone(&world), Settings::default());
+    method.step(&Cancel::default());
+    let first = automatic_exposure(&world, &method.solution());
+    while method.step(&Cancel::default()) == Step::Advanced {
+        let exposure = automatic_exposure(&world, &method.solution());
+        assert!((exposure - first).abs() < 0.5, "{exposure}, after {first} at first: more than half a stop");
+    }
+    assert!(method.solution().converged);
+}
+
+#[test]
+fn a_dark_world_has_an_exposure_of_zero() {
+    let world = square();
+    assert_eq!(automatic_exposure(&world, &solution(&world, |_| Rgb::ZERO)), 0.0);
 }
 
 #[test]

@@ -3,7 +3,6 @@
 use crate::math::rgb::{Rgb64, luminance};
 use crate::solution::Solution;
 use crate::world::World;
-use glam::DVec3;
 use std::f64::consts::PI;
 use std::fmt;
 use std::str::FromStr;
@@ -79,60 +78,59 @@ impl FromStr for ToneCurve {
 /// What the mean radiance of a picture is shown as.
 const MID_GREY: f64 = 0.18;
 
-/// The exposure in stops at which the surfaces that do not emit will be mid grey on average, once all light is shot.
+/// The exposure in stops at which the surfaces that do not emit will be mid grey on average, once all light is shot; all
+/// surfaces, where all emit.
 ///
 /// It foresees the end by the ambient term of Cohen, Chen, Wallace and Greenberg (1988), so it hardly changes while light
 /// spreads: brightness is seen to grow. 0 where there is no light.
 pub fn automatic_exposure(world: &World, solution: &Solution) -> f32 {
     let mean_radiance = f64::from(luminance(expected_radiosity(world, solution).as_vec3())) / PI;
-    if mean_radiance > 0.0 && mean_radiance.is_finite() { (MID_GREY / mean_radiance).log2() as f32 } else { 0.0 }
+    if mean_radiance > 0.0 { (MID_GREY / mean_radiance).log2() as f32 } else { 0.0 }
 }
 
 /// The mean radiosity [W/m²] that elements without emission will have in the end: what they have now, and their share of
 /// the unshot flux, spread evenly over all surfaces with all its reflections to come.
 fn expected_radiosity(world: &World, solution: &Solution) -> Rgb64 {
-    let mut all = Mean::default();
-    let mut dark = Mean::default();
-    let mut radiosity = Rgb64::ZERO;
+    let mut dark = Surfaces::default();
+    let mut bright = Surfaces::default();
     for patch in &world.mesh.patches {
         let material = &world.scene.materials[patch.material as usize];
-        all.add(patch.area, material.diffuse.as_dvec3());
-        if !material.is_emitter() {
-            dark.add(patch.area, material.diffuse.as_dvec3());
-            for index in patch.elements.start as usize..patch.elements.end as usize {
-                radiosity += world.mesh.elements[index].area * solution.light.radiosity[index].as_dvec3();
-            }
+        let surfaces = if material.is_emitter() { &mut bright } else { &mut dark };
+        surfaces.area += patch.area;
+        surfaces.reflecting += patch.area * material.diffuse.as_dvec3();
+        for index in patch.elements.start as usize..patch.elements.end as usize {
+            surfaces.flux += world.mesh.elements[index].area * solution.light.radiosity[index].as_dvec3();
         }
     }
-    if dark.weight == 0.0 {
+    let all = Surfaces {
+        area: dark.area + bright.area,
+        reflecting: dark.reflecting + bright.reflecting,
+        flux: dark.flux + bright.flux,
+    };
+    if all.area == 0.0 {
         return Rgb64::ZERO;
     }
-    let kept = 1.0 - escaping_share(solution, all.mean());
-    let ambient = solution.energy.unshot * kept / (all.weight * (1.0 - all.mean() * kept));
-    radiosity / dark.weight + dark.mean() * ambient
+    let seen = if dark.area > 0.0 { &dark } else { &all };
+    let reflectance = all.reflecting / all.area;
+    let kept = 1.0 - escaping_share(solution, reflectance);
+    let ambient = solution.energy.unshot * kept / (all.area * (1.0 - reflectance * kept));
+    (seen.flux + seen.reflecting * ambient) / seen.area
+}
+
+/// Sums over some surfaces.
+#[derive(Default)]
+struct Surfaces {
+    /// m²
+    area: f64,
+    /// ρ A, m²
+    reflecting: Rgb64,
+    /// B A, W
+    flux: Rgb64,
 }
 
 /// The share of shot flux that has left the scene so far: of what surfaces took in, ρ was handed on and 1 − ρ absorbed.
 fn escaping_share(solution: &Solution, reflectance: Rgb64) -> Rgb64 {
     let arrived = solution.energy.absorbed / (1.0 - reflectance);
     let escaped = solution.energy.escaped;
-    (escaped / (arrived + escaped).max(DVec3::splat(f64::MIN_POSITIVE))).clamp(DVec3::ZERO, DVec3::ONE)
-}
-
-/// A weighted mean of colours, under way.
-#[derive(Default)]
-struct Mean {
-    weight: f64,
-    sum: Rgb64,
-}
-
-impl Mean {
-    fn add(&mut self, weight: f64, value: Rgb64) {
-        self.weight += weight;
-        self.sum += weight * value;
-    }
-
-    fn mean(&self) -> Rgb64 {
-        self.sum / self.weight
-    }
+    (escaped / (arrived + escaped).max(Rgb64::splat(f64::MIN_POSITIVE))).clamp(Rgb64::ZERO, Rgb64::ONE)
 }

@@ -185,3 +185,68 @@ fn rank(device_type: wgpu::DeviceType) -> u8 {
         wgpu::DeviceType::Cpu => 4,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn info(name: &str, device_type: wgpu::DeviceType) -> wgpu::AdapterInfo {
+        wgpu::AdapterInfo {
+            name: name.to_owned(),
+            vendor: 0,
+            device: 0,
+            device_type,
+            device_pci_bus_id: String::new(),
+            driver: String::new(),
+            driver_info: String::new(),
+            backend: wgpu::Backend::Vulkan,
+            subgroup_min_size: 4,
+            subgroup_max_size: 128,
+            transient_saves_memory: None,
+            limit_bucket: None,
+        }
+    }
+
+    fn machine() -> Vec<wgpu::AdapterInfo> {
+        vec![
+            info("llvmpipe (LLVM 15)", wgpu::DeviceType::Cpu),
+            info("Integrated Graphics 620", wgpu::DeviceType::IntegratedGpu),
+            info("Discrete 4000", wgpu::DeviceType::DiscreteGpu),
+        ]
+    }
+
+    fn chosen(text: &str) -> Result<usize, GpuError> {
+        let Ok(choice) = text.parse::<AdapterChoice>();
+        choose_adapter(&machine(), &choice)
+    }
+
+    #[test]
+    fn the_system_prefers_the_adapter_that_is_likely_to_be_fastest() {
+        assert_eq!(chosen("system").expect("an adapter"), 2);
+        let without_discrete = choose_adapter(&machine()[..2], &AdapterChoice::System);
+        assert_eq!(without_discrete.expect("an adapter"), 1);
+    }
+
+    #[test]
+    fn adapters_are_found_by_kind_or_by_part_of_their_name() {
+        assert_eq!(chosen("software").expect("an adapter"), 0);
+        assert_eq!(chosen("graphics 6").expect("an adapter"), 1);
+        assert_eq!(chosen("LLVMPIPE").expect("an adapter"), 0);
+    }
+
+    #[test]
+    fn a_name_that_matches_nothing_is_answered_with_those_that_exist() {
+        let message = chosen("voodoo").expect_err("no such adapter").to_string();
+        for part in ["voodoo", "llvmpipe (LLVM 15)", "Integrated Graphics 620", "Discrete 4000"] {
+            assert!(message.contains(part), "{message}");
+        }
+        let message = choose_adapter(&machine()[1..], &AdapterChoice::Software).expect_err("none").to_string();
+        assert!(message.contains("software"), "{message}");
+    }
+
+    #[test]
+    fn a_machine_without_adapters_is_told_what_to_install() {
+        let message = choose_adapter(&[], &AdapterChoice::System).expect_err("none").to_string();
+        assert!(message.contains("mesa-vulkan-drivers") && message.contains("libvulkan1"), "{message}");
+    }
+}

@@ -40,3 +40,24 @@ pub fn from_half(bits: u16) -> f32 {
     const REBIAS: f32 = f32::from_bits((127 + 112) << 23);
     f32::from_bits(u32::from(bits) << 13) * REBIAS
 }
+
+#[cfg(test)]
+mod tests {
+    use super::from_half;
+
+    #[test]
+    fn halves_have_the_values_of_their_standard() {
+        // Zero, the smallest subnormal, the smallest normal, 1 and its neighbour, and the largest.
+        let cases = [
+            (0x0000, 0.0),
+            (0x0001, 2f32.powi(-24)),
+            (0x0400, 2f32.powi(-14)),
+            (0x3c00, 1.0),
+            (0x3c01, 1.0 + 2f32.powi(-10)),
+            (0x7bff, 65504.0),
+        ];
+        for (bits, value) in cases {
+            assert_eq!(from_half(bits), value);
+        }
+    }
+}
