@@ -2,11 +2,11 @@
 
 use super::mailbox::{Mail, Mailbox};
 use super::{Command, Phase, Run, Slot, Snapshot, StartMethod};
+use crate::errors::with_causes;
 use crate::methods::{Settings, Step};
 use crate::scene::Scene;
 use crate::world::{World, WorldError};
 use std::any::Any;
-use std::error::Error;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -64,7 +64,7 @@ impl Solver {
         let before = self.snapshot.phase.clone();
         self.snapshot.phase = Phase::Loading(name.to_owned());
         self.publish();
-        let built = Scene::open(name).map_err(|error| chain(&error)).and_then(|scene| self.build(scene));
+        let built = Scene::open(name).map_err(|error| with_causes(&error)).and_then(|scene| self.build(scene));
         self.take_over(built, before);
     }
 
@@ -76,7 +76,7 @@ impl Solver {
     }
 
     fn build(&self, scene: Scene) -> Result<World, String> {
-        World::build(scene, &self.snapshot.settings.mesh, self.mailbox.load_cancel()).map_err(|error| chain(&error))
+        World::build(scene, &self.snapshot.settings.mesh, self.mailbox.load_cancel()).map_err(|error| with_causes(&error))
     }
 
     fn configure(&mut self, settings: Settings) {
@@ -92,7 +92,7 @@ impl Solver {
             return self.publish();
         }
         let phase = self.snapshot.phase.clone();
-        let remeshed = world.remeshed(&settings.mesh).map_err(|error| chain(&error));
+        let remeshed = world.remeshed(&settings.mesh).map_err(|error| with_causes(&error));
         if remeshed.is_err() {
             self.snapshot.settings = old;
         }
@@ -191,15 +191,4 @@ impl Solver {
         self.published = Instant::now();
         self.slot.publish(self.snapshot.clone());
     }
-}
-
-/// An error with its causes, on one line.
-fn chain(error: &dyn Error) -> String {
-    let mut text = error.to_string();
-    let mut cause = error.source();
-    while let Some(error) = cause {
-        text = format!("{text}: {error}");
-        cause = error.source();
-    }
-    text
 }

@@ -6,7 +6,10 @@ mod escape;
 mod form_factor;
 mod gather;
 mod ledger;
+mod sensor;
 mod visibility;
+
+pub use sensor::irradiance_in_space;
 
 use crate::cancel::Cancel;
 use crate::math::rgb::{Rgb64, total};

@@ -56,6 +56,11 @@ impl Sightline<'_> {
     }
 }
 
+/// A point of a patch for coordinates in [0, 1)².
+pub fn shooter_point(patch: &Patch, at: Vec2) -> Vec3A {
+    point(&corners_of(patch), at)
+}
+
 fn corners_of(patch: &Patch) -> ([Vec3A; 4], usize) {
     let corners = patch.corners();
     (std::array::from_fn(|i| Vec3A::from(corners[i.min(corners.len() - 1)])), corners.len())
