@@ -113,7 +113,7 @@ fn gather_batch(batch: &Batch, shot: &Shot, form_factors: &mut [f64]) -> Work {
             work.form_factors += 1;
             if *out > 0.0 {
                 let mut stream = Stream::new(shot.seed, shot.step, index as u64);
-                let (visible, rays) = shot.sightline.visible_share(element, patch.normal, &mut stream);
+                let (visible, rays) = shot.sightline.visible_share(element, patch.normal, *out, &mut stream);
                 *out *= visible;
                 work.rays += u64::from(rays);
             }

@@ -2,6 +2,7 @@
 
 use crate::math::random::Stream;
 use crate::math::warp::triangle;
+use crate::methods::Settings;
 use crate::mesh::{Element, Mesh, Patch};
 use crate::tracer::Tracer;
 use crate::world::is_covered;
@@ -14,25 +15,46 @@ const STEP: Vec4 = Vec4::new(0.856_674_9, 0.733_891_9, 0.628_706_7, 0.538_597_3)
 /// Points tried for each ray on an element that is partly covered.
 const TRIES: u32 = 16;
 
+/// How many rays a receiver gets.
+#[derive(Clone, Copy, Debug)]
+pub struct Rays {
+    /// At most this many.
+    pub most: u32,
+    /// This many times its form factor, [`Settings::MIN_SHADOW_RAYS`] or more.
+    pub per_form_factor: f64,
+}
+
+impl Rays {
+    fn to(&self, form_factor: f64) -> u32 {
+        ((self.per_form_factor * form_factor).ceil() as u32).max(Settings::MIN_SHADOW_RAYS).min(self.most)
+    }
+}
+
 /// The receivers and the shooter that rays run between.
 pub struct Sightline<'a> {
     pub mesh: &'a Mesh,
     pub tracer: &'a Tracer,
     pub shooter: &'a Patch,
-    /// Rays for each receiver.
-    pub rays: u32,
+    pub rays: Rays,
 }
 
 impl Sightline<'_> {
     /// Share of point pairs of element and shooter that see each other, among those that face each other, and the
-    /// number of rays traced. `stream` shifts the pattern of points, so that neighbours do not err alike.
-    pub fn visible_share(&self, element: &Element, normal: Vec3A, stream: &mut Stream) -> (f64, u32) {
+    /// number of rays traced. `form_factor` is what it would be with nothing between them. `stream` shifts the pattern of points, so that neighbours do not err alike.
+    pub fn visible_share(
+        &self,
+        element: &Element,
+        normal: Vec3A,
+        form_factor: f64,
+        stream: &mut Stream,
+    ) -> (f64, u32) {
+        let rays = self.rays.to(form_factor);
         let (corners, count) = self.mesh.element_corners(element);
         let receiver = (corners.map(Vec3A::from), count);
         let shooter = corners_of(self.shooter);
         let (low, high) = (stream.uniform2(), stream.uniform2());
         let mut at = Vec4::new(low.x, low.y, high.x, high.y);
-        let tries = if element.exposed < 1.0 { TRIES * self.rays } else { self.rays };
+        let tries = if element.exposed < 1.0 { TRIES * rays } else { rays };
         let (mut pairs, mut facing, mut visible) = (0, 0, 0);
         for _ in 0..tries {
             at = (at + STEP).fract();
@@ -47,7 +69,7 @@ impl Sightline<'_> {
                 visible += u32::from(self.tracer.is_visible(from, to));
             }
             pairs += 1;
-            if pairs == self.rays {
+            if pairs == rays {
                 break;
             }
         }
