@@ -1,7 +1,13 @@
 //! Polygon sides cut into patches, which shoot light, and elements, which receive it.
 
-pub mod smooth;
-pub mod subdivide;
+mod grid;
+mod locate;
+mod smooth;
+mod subdivide;
+
+pub use grid::{Grid, Shape};
+pub use locate::Location;
+pub use subdivide::{element_size_for, estimated_elements, subdivide};
 
 use glam::{Vec3, Vec3A};
 use std::ops::Range;
@@ -16,33 +22,29 @@ pub struct Mesh {
     /// Corner positions of elements, m. Elements share a vertex where light is smooth across it: same material,
     /// same side, no crease.
     pub vertices: Vec<Vec3>,
+    /// Σ exposed area of the elements round each vertex, m².
+    vertex_areas: Vec<f32>,
 }
 
 /// One meshed side of a polygon.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Side {
     pub patches: Range<u32>,
     pub elements: Range<u32>,
     pub grid: Grid,
-}
-
-/// How a side is divided: `patches` along each edge, and `elements` along each edge of a patch. A triangle uses the
-/// first number of each for all its edges.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Grid {
-    pub patches: [u32; 2],
-    pub elements: [u32; 2],
+    /// The whole side, with its corners counter-clockwise seen from where it shines.
+    pub shape: Shape,
 }
 
 /// A planar convex piece of a surface with one radiosity while it shoots.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Patch {
     corners: [Vec3; 4],
     corner_count: u8,
     /// Unit normal on the side where the patch shines.
     pub normal: Vec3A,
     pub center: Vec3A,
-    /// m²
+    /// Exposed area, m²: that of its elements.
     pub area: f64,
     /// Indices into [`Mesh::elements`].
     pub elements: Range<u32>,
@@ -69,8 +71,10 @@ pub struct Element {
     /// Index into [`Mesh::patches`].
     pub patch: u32,
     pub center: Vec3A,
-    /// m²
+    /// Exposed area, m²: what light can reach. Where a block stands on a floor, the floor below it is no part of it.
     pub area: f64,
+    /// Share of the element that is exposed, in [0, 1].
+    pub exposed: f32,
 }
 
 impl Element {
@@ -80,9 +84,54 @@ impl Element {
     }
 }
 
+impl Mesh {
+    /// Corner positions of an element, padded to four by repeating the last one; and how many of them count.
+    pub fn element_corners(&self, element: &Element) -> ([Vec3; 4], usize) {
+        (element.corners.map(|corner| self.vertices[corner as usize]), element.corner_count as usize)
+    }
+
+    /// States how much of each element is exposed, in [0, 1] and in the order of the elements.
+    pub fn expose(&mut self, shares: &[f32]) {
+        for (element, &share) in self.elements.iter_mut().zip(shares) {
+            element.area *= f64::from(share) / f64::from(element.exposed);
+            element.exposed = share;
+        }
+        for patch in &mut self.patches {
+            let elements = &self.elements[patch.elements.start as usize..patch.elements.end as usize];
+            patch.area = elements.iter().map(|element| element.area).sum();
+        }
+        self.vertex_areas = smooth::vertex_areas(&self.elements, &self.vertices);
+    }
+
+    /// The meshed side of a polygon; `None` where light cannot reach it.
+    pub fn side(&self, polygon: u32, is_front: bool) -> Option<&Side> {
+        self.sides[side_index(polygon, is_front)].as_ref()
+    }
+
+    /// Total exposed area, m².
+    pub fn area(&self) -> f64 {
+        self.patches.iter().map(|patch| patch.area).sum()
+    }
+}
+
+/// Index of a side in [`Mesh::sides`].
+pub fn side_index(polygon: u32, is_front: bool) -> usize {
+    2 * polygon as usize + usize::from(!is_front)
+}
+
 /// How finely surfaces are cut.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct MeshSettings {
-    /// Longest edge of an element, m. `None`: chosen so that the whole mesh has about [`MeshSettings::DEFAULT_ELEMENTS`].
+    /// Longest edge of an element (of a triangle, the second longest), m. `None`: the size at which the mesh has about [`MeshSettings::DEFAULT_ELEMENTS`].
     pub element_size: Option<f32>,
+}
+
+impl MeshSettings {
+    /// Few enough that two cores shoot more than a hundred times a second, fine enough for a soft shadow.
+    pub const DEFAULT_ELEMENTS: f64 = 8000.0;
+    /// More elements than this are refused: their light alone would take gigabytes.
+    pub const MAX_ELEMENTS: f64 = 8e6;
+    /// Elements along the edge of a patch. Receivers need more detail than shooters: a shadow's edge is seen where it
+    /// falls, while the light that a patch sends on is blurred by distance (Cohen, Greenberg, Immel, Brock 1986).
+    pub const ELEMENTS_PER_PATCH_EDGE: u32 = 4;
 }

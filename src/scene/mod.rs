@@ -109,6 +109,12 @@ impl Polygon {
         Self { corners: padded, corner_count: corners.len() as u8, material, object, line }
     }
 
+    /// The same face with its front and back exchanged.
+    pub fn turned(&self) -> Self {
+        let corners: Vec<u32> = self.corners().iter().rev().copied().collect();
+        Self::new(&corners, self.material, self.object, self.line)
+    }
+
     /// Indices of the corner positions, counter-clockwise seen from the front.
     pub fn corners(&self) -> &[u32] {
         &self.corners[..self.corner_count as usize]

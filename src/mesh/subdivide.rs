@@ -1,0 +1,158 @@
+//! Cuts the sides of a scene's polygons into patches and these into elements.
+
+use super::grid::{Grid, Shape};
+use super::{Element, Mesh, MeshSettings, Patch, Side, side_index, smooth};
+use crate::math::polygon::vector_area;
+use crate::scene::{Polygon, Scene};
+use glam::{DVec3, Vec3, Vec3A};
+use std::collections::HashMap;
+
+/// Sides that meet at a sharper angle than this show a crease. cos 30°
+const CREASE_COSINE: f32 = 0.866;
+
+/// The element size, m, at which sides with this total area have about as many elements as wanted.
+pub fn element_size_for(area: f64, elements: f64) -> f64 {
+    (area / elements).sqrt()
+}
+
+/// How many elements the mesh would have; costs next to nothing.
+pub fn estimated_elements(scene: &Scene, is_meshed: &[bool], element_size: f64) -> f64 {
+    sides(scene, is_meshed)
+        .map(|(polygon, is_front)| {
+            let shape = side_shape(scene, polygon, is_front);
+            let grid = Grid::fit(&shape, element_size, MeshSettings::ELEMENTS_PER_PATCH_EDGE);
+            let cells = |count: [u32; 2]| match shape {
+                Shape::Triangle(_) => f64::from(count[0]).powi(2),
+                Shape::Quad(_) => f64::from(count[0]) * f64::from(count[1]),
+            };
+            cells(grid.patches) * cells(grid.elements)
+        })
+        .sum()
+}
+
+/// Cuts every side for which `is_meshed`, indexed as [`Mesh::sides`], is true. Lengths are in metres.
+pub fn subdivide(scene: &Scene, is_meshed: &[bool], element_size: f64) -> Mesh {
+    let mut builder = Builder { vertices: Vertices::default(), mesh: Mesh::default() };
+    builder.mesh.sides = vec![None; is_meshed.len()];
+    for (index, is_front) in sides(scene, is_meshed) {
+        let shape = side_shape(scene, index, is_front);
+        builder.add_side(shape, index as u32, is_front, scene.polygons[index].material, element_size);
+    }
+    let Builder { mut mesh, vertices } = builder;
+    mesh.vertices = vertices.positions;
+    mesh.vertex_areas = smooth::vertex_areas(&mesh.elements, &mesh.vertices);
+    mesh
+}
+
+/// (polygon, is front) of every side to be meshed.
+fn sides<'a>(scene: &'a Scene, is_meshed: &'a [bool]) -> impl Iterator<Item = (usize, bool)> + 'a {
+    let all = (0..scene.polygons.len()).flat_map(|polygon| [(polygon, true), (polygon, false)]);
+    all.filter(|&(polygon, is_front)| is_meshed[side_index(polygon as u32, is_front)])
+}
+
+/// The corners of a side, counter-clockwise seen from where it shines.
+fn side_shape(scene: &Scene, polygon: usize, is_front: bool) -> Shape {
+    let corner = |polygon: &Polygon, i: usize| scene.positions[polygon.corners()[i] as usize].as_dvec3();
+    let polygon = &scene.polygons[polygon];
+    let mut corners: Vec<DVec3> = (0..polygon.corners().len()).map(|i| corner(polygon, i)).collect();
+    if !is_front {
+        corners.reverse();
+    }
+    Shape::new(&corners)
+}
+
+struct Builder {
+    vertices: Vertices,
+    mesh: Mesh,
+}
+
+impl Builder {
+    fn add_side(&mut self, shape: Shape, polygon: u32, is_front: bool, material: u32, element_size: f64) {
+        let grid = Grid::fit(&shape, element_size, MeshSettings::ELEMENTS_PER_PATCH_EDGE);
+        let normal = vector_area(shape.corners()).normalize().as_vec3a();
+        let patches_start = self.mesh.patches.len() as u32;
+        let elements_start = self.mesh.elements.len() as u32;
+        for index in 0..shape.cells(grid.patches) {
+            let patch_shape = shape.cell(grid.patches, index);
+            let first = self.mesh.elements.len() as u32;
+            let patch = self.mesh.patches.len() as u32;
+            for index in 0..patch_shape.cells(grid.elements) {
+                let element = self.element(&patch_shape.cell(grid.elements, index), patch, normal, material);
+                self.mesh.elements.push(element);
+            }
+            let corners = padded(patch_shape.corners()).map(|corner| corner.as_vec3());
+            self.mesh.patches.push(Patch {
+                corners,
+                corner_count: patch_shape.corners().len() as u8,
+                normal,
+                center: center(patch_shape.corners()),
+                area: vector_area(patch_shape.corners()).length(),
+                elements: first..self.mesh.elements.len() as u32,
+                polygon,
+                is_front,
+                material,
+            });
+        }
+        let side = Side {
+            patches: patches_start..self.mesh.patches.len() as u32,
+            elements: elements_start..self.mesh.elements.len() as u32,
+            grid,
+            shape,
+        };
+        self.mesh.sides[side_index(polygon, is_front)] = Some(side);
+    }
+
+    fn element(&mut self, shape: &Shape, patch: u32, normal: Vec3A, material: u32) -> Element {
+        let corners = shape.corners();
+        Element {
+            corners: padded(corners).map(|corner| self.vertices.share(corner.as_vec3(), normal, material)),
+            corner_count: corners.len() as u8,
+            patch,
+            center: center(corners),
+            area: vector_area(corners).length(),
+            exposed: 1.0,
+        }
+    }
+}
+
+/// Four corners, the last one repeated where there are three.
+fn padded(corners: &[DVec3]) -> [DVec3; 4] {
+    [corners[0], corners[1], corners[2], *corners.last().expect("a shape has corners")]
+}
+
+fn center(corners: &[DVec3]) -> Vec3A {
+    (corners.iter().sum::<DVec3>() / corners.len() as f64).as_vec3a()
+}
+
+/// Vertices that elements share.
+#[derive(Default)]
+struct Vertices {
+    positions: Vec<Vec3>,
+    /// Normal and material of the side that made each vertex, and the next vertex in the same place.
+    origins: Vec<(Vec3A, u32, Option<u32>)>,
+    /// The newest vertex at a position, by the bits of its coordinates.
+    by_position: HashMap<[u32; 3], u32>,
+}
+
+impl Vertices {
+    /// The vertex at `position` on a surface with this normal and material: one that is there already where no crease
+    /// or change of material separates the two, else a new one.
+    fn share(&mut self, position: Vec3, normal: Vec3A, material: u32) -> u32 {
+        // Adding zero makes −0 and +0 one place.
+        let key = (position + Vec3::ZERO).to_array().map(f32::to_bits);
+        let newest = self.by_position.get(&key).copied();
+        let mut candidate = newest;
+        while let Some(vertex) = candidate {
+            let (other_normal, other_material, next) = self.origins[vertex as usize];
+            if other_material == material && other_normal.dot(normal) >= CREASE_COSINE {
+                return vertex;
+            }
+            candidate = next;
+        }
+        let vertex = self.positions.len() as u32;
+        self.positions.push(position);
+        self.origins.push((normal, material, newest));
+        self.by_position.insert(key, vertex);
+        vertex
+    }
+}

@@ -1,0 +1,146 @@
+//! Emitters that shine the wrong way, lie in a wall, or light nothing.
+
+use super::TOUCHING;
+use super::sides::emitting_sides;
+use super::surface::Surfaces;
+use crate::math::bounds::Bounds;
+use crate::math::random::Stream;
+use crate::mesh::side_index;
+use crate::scene::{Finding, FindingKind, Polygon, Scene, Severity};
+use crate::tracer::Tracer;
+use glam::{Vec3, Vec3A};
+
+/// Rays that look out from one side of an emitter.
+const LOOKS: u64 = 64;
+/// An emitter whose front has less than this share of its view open, and whose back has more, is turned.
+const BLIND_SHARE: f32 = 1.0 / 16.0;
+/// What is nearer than this times the square root of the emitter's area stands right before it.
+const NEAR: f32 = 0.25;
+/// Emitters in the plane of another surface are moved by this share of the scene's radius: still touching it.
+const STEP: f32 = TOUCHING / 4.0;
+/// Surfaces closer than this share of the scene's radius lie in one plane.
+const SAME_PLANE: f32 = 1e-6;
+const LOOK_PASS: u64 = 4;
+
+/// Turns emitters whose front faces a wall or the void while their back faces the scene. Neighbours in one object turn
+/// each for itself.
+pub fn turn(scene: &mut Scene, tracer: &Tracer) -> Vec<Finding> {
+    let surfaces = Surfaces::new(scene);
+    let mut findings = Vec::new();
+    for front in emitting_sides(scene) {
+        let (before, behind) =
+            (open_view(scene, &surfaces, tracer, front), open_view(scene, &surfaces, tracer, front + 1));
+        if before < BLIND_SHARE && behind > BLIND_SHARE {
+            let polygon = front / 2;
+            scene.polygons[polygon] = scene.polygons[polygon].turned();
+            findings.push(Finding {
+                severity: Severity::Note,
+                kind: FindingKind::EmitterTurned,
+                subject: subject(scene, polygon),
+                problem: "its front faces a wall or the void, and its back faces the scene".to_owned(),
+                remedy: "turned round, so that it lights the scene".to_owned(),
+            });
+        }
+    }
+    findings
+}
+
+/// The share of rays from a side that meet something which is neither right before it nor an emitter's front.
+fn open_view(scene: &Scene, surfaces: &Surfaces, tracer: &Tracer, side: usize) -> f32 {
+    let near = NEAR * (surfaces.area(side) as f32).sqrt();
+    let mut stream = Stream::new(0, LOOK_PASS, side as u64);
+    let open = (0..LOOKS).filter(|_| {
+        let from = surfaces.place(side, tracer, &mut stream);
+        surfaces.bounce(&from, tracer, &mut stream).is_some_and(|place| {
+            let material = &scene.materials[scene.polygons[place.side / 2].material as usize];
+            let shines_back = material.is_emitter() && place.side.is_multiple_of(2);
+            !shines_back && from.point.distance(place.point) > near
+        })
+    });
+    open.count() as f32 / LOOKS as f32
+}
+
+/// Moves emitters that lie exactly in the plane of another surface a hair towards their front. Where two surfaces
+/// coincide there is no telling which one a ray meets, and both would receive the same light.
+pub fn move_off_walls(scene: &mut Scene) -> Vec<Finding> {
+    let surfaces = Surfaces::new(scene);
+    let radius = Bounds::of(surfaces.corners()).radius();
+    let mut findings = Vec::new();
+    for front in emitting_sides(scene) {
+        let polygon = front / 2;
+        let Some(wall) = (0..surfaces.len()).find(|&other| covers(&surfaces, other, polygon, SAME_PLANE * radius)) else {
+            continue;
+        };
+        let step = Vec3::from(surfaces.normal(front)) * (STEP * radius);
+        move_polygon(scene, polygon, step);
+        findings.push(Finding {
+            severity: Severity::Note,
+            kind: FindingKind::EmitterMoved,
+            subject: subject(scene, polygon),
+            problem: format!("it lies in the plane of {}", subject(scene, wall)),
+            remedy: format!("moved {:.2e} m towards its front", step.length()),
+        });
+    }
+    findings
+}
+
+/// Whether `wall` lies in the plane of `polygon`, within `tolerance`, and holds its centre.
+fn covers(surfaces: &Surfaces, wall: usize, polygon: usize, tolerance: f32) -> bool {
+    if wall == polygon {
+        return false;
+    }
+    let corners = surfaces.corners_of(polygon);
+    let normal = surfaces.normal(side_index(wall as u32, true));
+    let wall_corners = surfaces.corners_of(wall);
+    if corners.iter().any(|&corner| (corner - wall_corners[0]).dot(normal).abs() > tolerance) {
+        return false;
+    }
+    let center = corners.iter().sum::<Vec3A>() / corners.len() as f32;
+    wall_corners.iter().enumerate().all(|(i, &from)| {
+        let to = wall_corners[(i + 1) % wall_corners.len()];
+        (to - from).cross(center - from).dot(normal) > 0.0
+    })
+}
+
+/// Gives the polygon corners of its own, since others may share the old ones.
+fn move_polygon(scene: &mut Scene, index: usize, step: Vec3) {
+    let old = scene.polygons[index];
+    let corners: Vec<u32> = old
+        .corners()
+        .iter()
+        .map(|&corner| {
+            scene.positions.push(scene.positions[corner as usize] + step);
+            scene.positions.len() as u32 - 1
+        })
+        .collect();
+    scene.polygons[index] = Polygon::new(&corners, old.material, old.object, old.line);
+}
+
+/// Emitters whose light meets nothing.
+pub fn hidden(scene: &Scene, surfaces: &Surfaces, tracer: &Tracer) -> Vec<Finding> {
+    let sees_nothing = |side: &usize| {
+        let mut stream = Stream::new(1, LOOK_PASS, *side as u64);
+        !(0..LOOKS).any(|_| {
+            let from = surfaces.place(*side, tracer, &mut stream);
+            surfaces.bounce(&from, tracer, &mut stream).is_some()
+        })
+    };
+    let finding = |side: usize| Finding {
+        severity: Severity::Warning,
+        kind: FindingKind::EmitterHidden,
+        subject: subject(scene, side / 2),
+        problem: "nothing in the scene sees it".to_owned(),
+        remedy: "kept; all its light escapes".to_owned(),
+    };
+    emitting_sides(scene).into_iter().filter(sees_nothing).map(finding).collect()
+}
+
+/// How a finding names a polygon.
+fn subject(scene: &Scene, polygon: usize) -> String {
+    let polygon = &scene.polygons[polygon];
+    let object = scene.objects.get(polygon.object as usize).map_or("", String::as_str);
+    match polygon.line {
+        0 => format!("object '{object}'"),
+        line => format!("object '{object}', line {line}"),
+    }
+}

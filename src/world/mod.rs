@@ -1,0 +1,148 @@
+//! The world: a scene made ready for light. It is built once and never changes.
+
+mod emitters;
+mod exposure;
+mod sides;
+mod surface;
+mod viewpoint;
+
+pub use exposure::is_covered;
+
+use crate::cancel::{Cancel, Cancelled};
+use crate::math::bounds::Bounds;
+use crate::mesh::{Mesh, MeshSettings, element_size_for, estimated_elements, subdivide};
+use crate::scene::{Finding, Scene, Viewpoint};
+use crate::tracer::Tracer;
+use sides::Reach;
+use std::sync::Arc;
+use surface::Surfaces;
+
+/// Surfaces that are nearer to each other than this share of the scene's radius touch: no light gets between them.
+const TOUCHING: f32 = 4e-4;
+
+/// A scene, its mesh and its tracer.
+pub struct World {
+    /// The scene as mended: emitters may have been turned or moved, and its findings say so.
+    pub scene: Arc<Scene>,
+    pub tracer: Arc<Tracer>,
+    pub mesh: Mesh,
+    /// Box round all polygons, m.
+    pub bounds: Bounds,
+    /// The view to begin with: the one that the scene's author measured, or one that looks into the scene.
+    pub viewpoint: Viewpoint,
+    /// Whether no light can leave: not one of the rays that explored the scene did.
+    pub is_closed: bool,
+    /// Longest edge of an element, m.
+    pub element_size: f32,
+    /// For each side, as in [`Mesh::sides`], whether light can reach it.
+    is_reached: Arc<[bool]>,
+}
+
+/// Why a world could not be built.
+#[derive(Debug, PartialEq, thiserror::Error)]
+pub enum WorldError {
+    #[error("stopped while the scene was being prepared")]
+    Cancelled,
+    #[error("an element size of {0} m cannot be used: it must be a number above 0")]
+    ElementSize(f32),
+    #[error("elements of {size:.1e} m would be {elements:.1e} in number; at most {:.0e} fit", MeshSettings::MAX_ELEMENTS)]
+    TooFine { size: f64, elements: f64 },
+}
+
+impl From<Cancelled> for WorldError {
+    fn from(_: Cancelled) -> Self {
+        Self::Cancelled
+    }
+}
+
+impl World {
+    /// Mends the emitters, builds the tracer, finds out which sides light can reach, and cuts these into elements.
+    ///
+    /// # Errors
+    /// If cancelled, or if the element size is not a positive number or too fine for memory.
+    pub fn build(mut scene: Scene, settings: &MeshSettings, cancel: &Cancel) -> Result<Self, WorldError> {
+        let mut tracer = Tracer::new(&triangles(&scene));
+        let mut findings = emitters::turn(&mut scene, &tracer);
+        let moved = emitters::move_off_walls(&mut scene);
+        if !moved.is_empty() {
+            tracer = Tracer::new(&triangles(&scene));
+        }
+        findings.extend(moved);
+        let surfaces = Surfaces::new(&scene);
+        let bounds = Bounds::of(surfaces.corners());
+        let start = scene.viewpoint.unwrap_or_else(|| viewpoint::from_outside(&bounds));
+        let Reach { is_reached, is_closed, rooms } = sides::explore(&scene, &surfaces, &tracer, start.eye, cancel)?;
+        findings.extend(emitters::hidden(&scene, &surfaces, &tracer));
+        scene.findings.extend::<Vec<Finding>>(findings);
+        let viewpoint =
+            scene.viewpoint.unwrap_or_else(|| viewpoint::choose(&bounds, &surfaces, &tracer, &is_reached, &rooms));
+        let (mesh, element_size) = mesh(&scene, &surfaces, &tracer, &is_reached, settings)?;
+        Ok(Self {
+            scene: Arc::new(scene),
+            tracer: Arc::new(tracer),
+            mesh,
+            bounds,
+            viewpoint,
+            is_closed,
+            element_size,
+            is_reached: is_reached.into(),
+        })
+    }
+
+    /// The same scene cut differently; costs only the new mesh.
+    ///
+    /// # Errors
+    /// If the element size is not a positive number or too fine for memory.
+    pub fn remeshed(&self, settings: &MeshSettings) -> Result<Self, WorldError> {
+        let (mesh, element_size) = mesh(&self.scene, &Surfaces::new(&self.scene), &self.tracer, &self.is_reached, settings)?;
+        Ok(Self {
+            scene: self.scene.clone(),
+            tracer: self.tracer.clone(),
+            mesh,
+            bounds: self.bounds,
+            viewpoint: self.viewpoint,
+            is_closed: self.is_closed,
+            element_size,
+            is_reached: self.is_reached.clone(),
+        })
+    }
+}
+
+/// The mesh of the reached sides and its element size, m.
+fn mesh(
+    scene: &Scene,
+    surfaces: &Surfaces,
+    tracer: &Tracer,
+    is_reached: &[bool],
+    settings: &MeshSettings,
+) -> Result<(Mesh, f32), WorldError> {
+    let size = match settings.element_size {
+        Some(size) if size > 0.0 && size.is_finite() => f64::from(size),
+        Some(size) => return Err(WorldError::ElementSize(size)),
+        None => {
+            let area = is_reached.iter().enumerate().filter(|(_, reached)| **reached).map(|(side, _)| surfaces.area(side));
+            element_size_for(area.sum(), MeshSettings::DEFAULT_ELEMENTS)
+        }
+    };
+    let elements = estimated_elements(scene, is_reached, size);
+    if elements > MeshSettings::MAX_ELEMENTS {
+        return Err(WorldError::TooFine { size, elements });
+    }
+    let mut mesh = subdivide(scene, is_reached, size);
+    let shares = exposure::shares(&mesh, tracer);
+    mesh.expose(&shares);
+    Ok((mesh, size as f32))
+}
+
+/// Every polygon as one or two triangles, each with the polygon's index.
+fn triangles(scene: &Scene) -> Vec<(u32, [glam::Vec3; 3])> {
+    let mut triangles = Vec::with_capacity(2 * scene.polygons.len());
+    for (index, polygon) in scene.polygons.iter().enumerate() {
+        let corners = polygon.corners();
+        for pair in corners[1..].windows(2) {
+            let triangle = [corners[0], pair[0], pair[1]].map(|corner| scene.positions[corner as usize]);
+            triangles.push((index as u32, triangle));
+        }
+    }
+    triangles
+}

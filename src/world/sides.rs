@@ -1,0 +1,272 @@
+//! Which sides of which polygons light can reach.
+//!
+//! The outside of a closed room and the inside of a block never see light; meshing them would cost memory and time
+//! for nothing. Sides are first joined into *shells*: sides that meet at an edge and bound the same space. A shell is
+//! reached if a walk of light from an emitter touches it, or if a walk that starts on it can be connected with a walk
+//! from an emitter by a free line of sight: no chain of guesses, every step is a ray, so nothing that is shut off is
+//! ever taken for reached. Both kinds of walk together find what is small or hard to get into.
+
+use super::TOUCHING;
+use super::surface::{Place, Surfaces};
+use crate::cancel::{Cancel, Cancelled};
+use crate::math::bounds::Bounds;
+use crate::math::random::Stream;
+use crate::math::warp::frame;
+use crate::mesh::side_index;
+use crate::scene::Scene;
+use crate::tracer::{Ray, Tracer};
+use glam::{Vec3, Vec3A};
+use rayon::prelude::*;
+use std::collections::HashMap;
+
+/// Walks of light from emitters, and the bounces of each.
+const LIGHT_WALKS: usize = 4096;
+const LIGHT_BOUNCES: usize = 16;
+/// Walks from a shell that no light walk touched, and the bounces of each. Scenes with very many shells share out
+/// [`SHELL_WALKS_IN_ALL`].
+const SHELL_WALKS: usize = 256;
+const SHELL_WALKS_IN_ALL: usize = 1 << 17;
+const SHELL_BOUNCES: usize = 6;
+/// Rays with which a side looks for anything at all.
+const LOOKS: usize = 64;
+/// Streams of random numbers, one for each use.
+const LIGHT_PASS: u64 = 1;
+const SHELL_PASS: u64 = 2;
+const LOOK_PASS: u64 = 3;
+
+/// What the exploration found out.
+pub struct Reach {
+    /// For each side, as in [`crate::mesh::Mesh::sides`].
+    pub is_reached: Vec<bool>,
+    /// Whether no walk of light left the scene.
+    pub is_closed: bool,
+    /// Places on surfaces that light reaches, to look for a viewpoint between them.
+    pub rooms: Vec<Place>,
+}
+
+/// Explores the scene from its emitters, or from the eye where there are none.
+pub fn explore(
+    scene: &Scene,
+    surfaces: &Surfaces,
+    tracer: &Tracer,
+    eye: Vec3,
+    cancel: &Cancel,
+) -> Result<Reach, Cancelled> {
+    let shells = shells(scene, surfaces);
+    let emitters: Vec<usize> = emitting_sides(scene);
+    let walks: Vec<Walk> =
+        (0..LIGHT_WALKS).into_par_iter().map(|i| light_walk(i, &emitters, surfaces, tracer, eye)).collect();
+    let light: Vec<Place> = walks.iter().flat_map(|walk| walk.places.iter().copied()).collect();
+    let mut is_shell_reached = vec![false; shells.count];
+    for place in &light {
+        is_shell_reached[shells.of_side[place.side]] = true;
+    }
+    let mut members = vec![Vec::new(); shells.count];
+    for (side, &shell) in shells.of_side.iter().enumerate() {
+        members[shell].push(side);
+    }
+    let dark: Vec<usize> = (0..shells.count).filter(|&shell| !is_shell_reached[shell]).collect();
+    let walks_each = (SHELL_WALKS_IN_ALL / dark.len().max(1)).clamp(8, SHELL_WALKS);
+    let found: Vec<bool> = dark
+        .par_iter()
+        .map(|&shell| {
+            !cancel.is_requested() && finds_light(&members[shell], shell, walks_each, &light, surfaces, tracer)
+        })
+        .collect();
+    for (&shell, found) in dark.iter().zip(found) {
+        is_shell_reached[shell] = found;
+    }
+    let near = TOUCHING * Bounds::of(surfaces.corners()).radius();
+    let mut is_reached: Vec<bool> = (0..2 * surfaces.len())
+        .into_par_iter()
+        .map(|side| {
+            is_shell_reached[shells.of_side[side]]
+                && !cancel.is_requested()
+                && has_room(side, near, surfaces, tracer)
+                && looks_at_something(side, surfaces, tracer)
+        })
+        .collect();
+    for &side in &emitters {
+        is_reached[side] = true;
+    }
+    if cancel.is_requested() {
+        return Err(Cancelled);
+    }
+    Ok(Reach { is_reached, is_closed: !walks.iter().any(|walk| walk.escaped), rooms: light })
+}
+
+/// Fronts of emitters.
+pub fn emitting_sides(scene: &Scene) -> Vec<usize> {
+    let emits = |polygon: usize| scene.materials[scene.polygons[polygon].material as usize].is_emitter();
+    (0..scene.polygons.len()).filter(|&polygon| emits(polygon)).map(|polygon| side_index(polygon as u32, true)).collect()
+}
+
+/// One path of light.
+struct Walk {
+    places: Vec<Place>,
+    escaped: bool,
+}
+
+fn light_walk(index: usize, emitters: &[usize], surfaces: &Surfaces, tracer: &Tracer, eye: Vec3) -> Walk {
+    let mut stream = Stream::new(0, LIGHT_PASS, index as u64);
+    let start = if emitters.is_empty() {
+        first_seen(surfaces, tracer, eye, &mut stream)
+    } else {
+        Some(surfaces.place(emitters[index % emitters.len()], tracer, &mut stream))
+    };
+    let mut walk = Walk { places: start.into_iter().collect(), escaped: false };
+    while let Some(last) = walk.places.last().filter(|_| walk.places.len() <= LIGHT_BOUNCES) {
+        match surfaces.bounce(last, tracer, &mut stream) {
+            Some(place) => walk.places.push(place),
+            None => {
+                walk.escaped = true;
+                break;
+            }
+        }
+    }
+    walk
+}
+
+/// What the eye sees in a random direction.
+fn first_seen(surfaces: &Surfaces, tracer: &Tracer, eye: Vec3, stream: &mut Stream) -> Option<Place> {
+    if surfaces.len() == 0 {
+        return None;
+    }
+    let aim = surfaces.place(2 * (stream.bits() % surfaces.len() as u64) as usize, tracer, stream);
+    let origin = Vec3A::from(eye);
+    let direction = (aim.point - origin).try_normalize()?;
+    let hit = tracer.closest(&Ray { origin, direction })?;
+    let side = side_index(hit.polygon, hit.is_front);
+    let normal = surfaces.normal(side);
+    Some(Place { side, point: tracer.lift(origin + hit.distance * direction, normal), normal })
+}
+
+/// Whether a walk from one of these sides comes in sight of a place where light has been.
+fn finds_light(
+    sides: &[usize],
+    shell: usize,
+    walks: usize,
+    light: &[Place],
+    surfaces: &Surfaces,
+    tracer: &Tracer,
+) -> bool {
+    if light.is_empty() {
+        return false;
+    }
+    (0..walks).any(|walk| {
+        let mut stream = Stream::new(walk as u64, SHELL_PASS, shell as u64);
+        let mut place = surfaces.place(sides[walk % sides.len()], tracer, &mut stream);
+        for _ in 0..SHELL_BOUNCES {
+            let other = &light[(stream.bits() % light.len() as u64) as usize];
+            if place.sees(other, tracer) {
+                return true;
+            }
+            match surfaces.bounce(&place, tracer, &mut stream) {
+                Some(next) => place = next,
+                None => return false,
+            }
+        }
+        false
+    })
+}
+
+/// Whether any ray from the side meets a surface: the outside of a block on a floor sees nothing below it.
+fn looks_at_something(side: usize, surfaces: &Surfaces, tracer: &Tracer) -> bool {
+    let mut stream = Stream::new(0, LOOK_PASS, side as u64);
+    (0..LOOKS).any(|_| {
+        let place = surfaces.place(side, tracer, &mut stream);
+        surfaces.bounce(&place, tracer, &mut stream).is_some()
+    })
+}
+
+/// Whether some of the side is farther than `near`, m, from whatever is before it: the back of a lamp that is let into
+/// a ceiling is not.
+fn has_room(side: usize, near: f32, surfaces: &Surfaces, tracer: &Tracer) -> bool {
+    let mut stream = Stream::new(1, LOOK_PASS, side as u64);
+    (0..LOOKS).any(|_| {
+        let place = surfaces.place(side, tracer, &mut stream);
+        let ahead = tracer.closest(&Ray { origin: place.point, direction: place.normal });
+        ahead.is_none_or(|hit| hit.distance > near)
+    })
+}
+
+/// Sides joined across edges.
+struct Shells {
+    of_side: Vec<usize>,
+    count: usize,
+}
+
+/// Joins sides that meet at an edge with nothing between them. Where more than two polygons share an edge, they are
+/// taken in their order round it. An edge of one polygon alone joins nothing: light would have to turn round it.
+fn shells(scene: &Scene, surfaces: &Surfaces) -> Shells {
+    let mut joined = UnionFind((0..2 * surfaces.len()).collect());
+    let mut edges: HashMap<(u32, u32), Vec<EdgeUse>> = HashMap::new();
+    for (index, polygon) in scene.polygons.iter().enumerate() {
+        let corners = polygon.corners();
+        for (i, &from) in corners.iter().enumerate() {
+            let to = corners[(i + 1) % corners.len()];
+            let use_ = EdgeUse { polygon: index as u32, runs_up: from < to };
+            edges.entry((from.min(to), from.max(to))).or_default().push(use_);
+        }
+    }
+    for ((from, to), uses) in &mut edges {
+        let axis = Vec3A::from(scene.positions[*to as usize] - scene.positions[*from as usize]).normalize_or_zero();
+        sort_round(axis, uses, surfaces);
+        for (i, this) in uses.iter().enumerate().filter(|_| uses.len() > 1) {
+            let next = &uses[(i + 1) % uses.len()];
+            joined.join(side_index(this.polygon, this.runs_up), side_index(next.polygon, !next.runs_up));
+        }
+    }
+    joined.into_shells()
+}
+
+/// A polygon at an edge, and whether its corners run along the edge from the lower to the higher index.
+struct EdgeUse {
+    polygon: u32,
+    runs_up: bool,
+}
+
+/// Sorts the polygons at an edge by their angle round it. The front of a polygon that runs up looks towards growing
+/// angles, its back towards falling ones; of one that runs down it is the other way round.
+fn sort_round(axis: Vec3A, uses: &mut [EdgeUse], surfaces: &Surfaces) {
+    if uses.len() < 3 {
+        return;
+    }
+    let round = frame(axis);
+    let angle = |edge_use: &EdgeUse| {
+        let normal = surfaces.normal(side_index(edge_use.polygon, edge_use.runs_up));
+        let outward = normal.cross(axis);
+        outward.dot(round.y_axis).atan2(outward.dot(round.x_axis))
+    };
+    uses.sort_by(|a, b| angle(a).total_cmp(&angle(b)));
+}
+
+/// Disjoint sets with path halving (Tarjan, van Leeuwen 1984).
+struct UnionFind(Vec<usize>);
+
+impl UnionFind {
+    fn root(&mut self, mut item: usize) -> usize {
+        while self.0[item] != item {
+            self.0[item] = self.0[self.0[item]];
+            item = self.0[item];
+        }
+        item
+    }
+
+    /// The smaller root stays, so the result does not depend on the order of joins.
+    fn join(&mut self, a: usize, b: usize) {
+        let (a, b) = (self.root(a), self.root(b));
+        self.0[a.max(b)] = a.min(b);
+    }
+
+    fn into_shells(mut self) -> Shells {
+        let mut numbers = HashMap::new();
+        let of_side = (0..self.0.len()).map(|side| {
+            let root = self.root(side);
+            let next = numbers.len();
+            *numbers.entry(root).or_insert(next)
+        });
+        let of_side: Vec<usize> = of_side.collect();
+        Shells { of_side, count: numbers.len() }
+    }
+}

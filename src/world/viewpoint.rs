@@ -1,0 +1,114 @@
+//! A view into a scene whose author left none.
+
+use super::surface::{Place, Surfaces};
+use crate::math::bounds::Bounds;
+use crate::mesh::side_index;
+use crate::scene::Viewpoint;
+use crate::tracer::{Ray, Tracer};
+use glam::{Quat, Vec3, Vec3A};
+use std::f32::consts::TAU;
+
+/// Angle of view from outside, degrees: that of a short telephoto lens, which keeps walls nearly parallel.
+const OUTSIDE_FOV: f32 = 40.0;
+/// Angle of view inside a room, degrees: wide.
+const INSIDE_FOV: f32 = 70.0;
+/// At least this share of an outside view must see the lit side of something at first sight.
+const OPEN_SHARE: f32 = 0.3;
+/// Looks in one direction are a grid of this many rays across.
+const GRID: usize = 16;
+/// Places inside that are tried, and directions from each.
+const INSIDE_PLACES: usize = 48;
+const INSIDE_DIRECTIONS: usize = 8;
+
+/// From the front, at a distance from which the whole box fits into the picture.
+pub fn from_outside(bounds: &Bounds) -> Viewpoint {
+    outside(bounds, Vec3::Z)
+}
+
+/// The best view: from outside where the scene is open to that side, else from within. `is_reached` tells for each
+/// side whether it is drawn; `rooms` are places that light reaches.
+pub fn choose(
+    bounds: &Bounds,
+    surfaces: &Surfaces,
+    tracer: &Tracer,
+    is_reached: &[bool],
+    rooms: &[Place],
+) -> Viewpoint {
+    let judge = Judge { surfaces, tracer, is_reached };
+    let tilted = |degrees: f32| Quat::from_rotation_y(degrees.to_radians()) * Vec3::new(0.0, 0.35, 1.0);
+    let directions = [Vec3::Z, Vec3::X, Vec3::NEG_X, Vec3::NEG_Z].into_iter().chain([30.0, -30.0, 150.0, 210.0].map(tilted));
+    let outside = directions.map(|direction| outside(bounds, direction));
+    let judged = outside.map(|view| (judge.open_share(&view), view));
+    // The first of several that are equally good: from the front.
+    let best = judged.reduce(|best, next| if next.0 > best.0 + 0.05 { next } else { best });
+    match best {
+        Some((share, view)) if share >= OPEN_SHARE || rooms.is_empty() => view,
+        _ => inside(bounds, &judge, rooms),
+    }
+}
+
+fn outside(bounds: &Bounds, direction: Vec3) -> Viewpoint {
+    let radius = if bounds.radius() > 0.0 { bounds.radius() } else { 1.0 };
+    let distance = radius / (0.5 * OUTSIDE_FOV).to_radians().sin();
+    let target = if bounds.is_empty() { Vec3::ZERO } else { bounds.center() };
+    Viewpoint { eye: target + distance * direction.normalize(), target, up: Vec3::Y, vertical_fov: OUTSIDE_FOV }
+}
+
+/// The widest view from the middle of the way between two places that light reaches one after the other.
+fn inside(bounds: &Bounds, judge: &Judge, rooms: &[Place]) -> Viewpoint {
+    let step = (rooms.len() / INSIDE_PLACES).max(1);
+    let eyes = rooms.windows(2).step_by(step).map(|pair| pair[0].point.midpoint(pair[1].point));
+    let views = eyes.flat_map(|eye| {
+        (0..INSIDE_DIRECTIONS).map(move |i| {
+            let turn = Quat::from_rotation_y(TAU * i as f32 / INSIDE_DIRECTIONS as f32);
+            let eye = Vec3::from(eye);
+            Viewpoint { eye, target: eye + bounds.radius() * (turn * Vec3::NEG_Z), up: Vec3::Y, vertical_fov: INSIDE_FOV }
+        })
+    });
+    let judged = views.map(|view| (judge.depth(&view, bounds.radius()), view));
+    judged.reduce(|best, next| if next.0 > best.0 { next } else { best }).map_or_else(|| from_outside(bounds), |best| best.1)
+}
+
+/// Looks at the scene through a few rays.
+struct Judge<'a> {
+    surfaces: &'a Surfaces,
+    tracer: &'a Tracer,
+    is_reached: &'a [bool],
+}
+
+impl Judge<'_> {
+    /// The share of rays through a square picture that meet the lit side of a surface at once.
+    fn open_share(&self, view: &Viewpoint) -> f32 {
+        let lit = rays(view).filter(|ray| {
+            self.tracer.closest(ray).is_some_and(|hit| self.is_reached[side_index(hit.polygon, hit.is_front)])
+        });
+        lit.count() as f32 / (GRID * GRID) as f32
+    }
+
+    /// Mean distance seen, up to `limit` for each ray and 0 for one that sees nothing lit. Surfaces that are seen at a
+    /// grazing angle count less: a view along a wall shows little.
+    fn depth(&self, view: &Viewpoint, limit: f32) -> f32 {
+        let seen = rays(view).map(|ray| match self.tracer.closest(&ray) {
+            Some(hit) if self.is_reached[side_index(hit.polygon, hit.is_front)] => {
+                let cosine = ray.direction.dot(self.surfaces.normal(side_index(hit.polygon, true))).abs();
+                hit.distance.min(limit) * cosine.sqrt()
+            }
+            _ => 0.0,
+        });
+        seen.sum()
+    }
+}
+
+/// Rays through the middles of the cells of a square picture.
+fn rays(view: &Viewpoint) -> impl Iterator<Item = Ray> + use<> {
+    let forward = (view.target - view.eye).normalize();
+    let right = forward.any_orthogonal_vector().normalize();
+    let right = forward.cross(view.up).try_normalize().unwrap_or(right);
+    let up = right.cross(forward);
+    let (eye, half) = (Vec3A::from(view.eye), (0.5 * view.vertical_fov).to_radians().tan());
+    (0..GRID * GRID).map(move |i| {
+        let at = |k: usize| half * (2.0 * (k as f32 + 0.5) / GRID as f32 - 1.0);
+        let direction = forward + at(i % GRID) * right + at(i / GRID) * up;
+        Ray { origin: eye, direction: direction.normalize().into() }
+    })
+}
