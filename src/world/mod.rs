@@ -45,7 +45,10 @@ pub enum WorldError {
     Cancelled,
     #[error("an element size of {0} m cannot be used: it must be a number above 0")]
     ElementSize(f32),
-    #[error("elements of {size:.1e} m would be {elements:.1e} in number; at most {:.0e} fit", MeshSettings::MAX_ELEMENTS)]
+    #[error(
+        "elements of {size:.1e} m would be {elements:.1e} in number; at most {:.0e} fit",
+        MeshSettings::MAX_ELEMENTS
+    )]
     TooFine { size: f64, elements: f64 },
 }
 
@@ -94,7 +97,8 @@ impl World {
     /// # Errors
     /// If the element size is not a positive number or too fine for memory.
     pub fn remeshed(&self, settings: &MeshSettings) -> Result<Self, WorldError> {
-        let (mesh, element_size) = mesh(&self.scene, &Surfaces::new(&self.scene), &self.tracer, &self.is_reached, settings)?;
+        let (mesh, element_size) =
+            mesh(&self.scene, &Surfaces::new(&self.scene), &self.tracer, &self.is_reached, settings)?;
         Ok(Self {
             scene: self.scene.clone(),
             tracer: self.tracer.clone(),
@@ -120,7 +124,8 @@ fn mesh(
         Some(size) if size > 0.0 && size.is_finite() => f64::from(size),
         Some(size) => return Err(WorldError::ElementSize(size)),
         None => {
-            let area = is_reached.iter().enumerate().filter(|(_, reached)| **reached).map(|(side, _)| surfaces.area(side));
+            let area =
+                is_reached.iter().enumerate().filter(|(_, reached)| **reached).map(|(side, _)| surfaces.area(side));
             element_size_for(area.sum(), MeshSettings::DEFAULT_ELEMENTS)
         }
     };

@@ -36,7 +36,8 @@ pub fn choose(
 ) -> Viewpoint {
     let judge = Judge { surfaces, tracer, is_reached };
     let tilted = |degrees: f32| Quat::from_rotation_y(degrees.to_radians()) * Vec3::new(0.0, 0.35, 1.0);
-    let directions = [Vec3::Z, Vec3::X, Vec3::NEG_X, Vec3::NEG_Z].into_iter().chain([30.0, -30.0, 150.0, 210.0].map(tilted));
+    let directions =
+        [Vec3::Z, Vec3::X, Vec3::NEG_X, Vec3::NEG_Z].into_iter().chain([30.0, -30.0, 150.0, 210.0].map(tilted));
     let outside = directions.map(|direction| outside(bounds, direction));
     let judged = outside.map(|view| (judge.open_share(&view), view));
     // The first of several that are equally good: from the front.
@@ -62,11 +63,18 @@ fn inside(bounds: &Bounds, judge: &Judge, rooms: &[Place]) -> Viewpoint {
         (0..INSIDE_DIRECTIONS).map(move |i| {
             let turn = Quat::from_rotation_y(TAU * i as f32 / INSIDE_DIRECTIONS as f32);
             let eye = Vec3::from(eye);
-            Viewpoint { eye, target: eye + bounds.radius() * (turn * Vec3::NEG_Z), up: Vec3::Y, vertical_fov: INSIDE_FOV }
+            Viewpoint {
+                eye,
+                target: eye + bounds.radius() * (turn * Vec3::NEG_Z),
+                up: Vec3::Y,
+                vertical_fov: INSIDE_FOV,
+            }
         })
     });
     let judged = views.map(|view| (judge.depth(&view, bounds.radius()), view));
-    judged.reduce(|best, next| if next.0 > best.0 { next } else { best }).map_or_else(|| from_outside(bounds), |best| best.1)
+    judged
+        .reduce(|best, next| if next.0 > best.0 { next } else { best })
+        .map_or_else(|| from_outside(bounds), |best| best.1)
 }
 
 /// Looks at the scene through a few rays.

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 /// Rays of one shot. They are stratified: the shares are good to about half a percent.
 pub const ESCAPE_RAYS: u32 = 1024;
 /// Marks this use of (seed, step) among the others.
-const PASS: u64 = 0x65_7363_6170_65;
+const PASS: u64 = 0x6573_6361_7065;
 
 /// The share of the cosine-distributed rays from a patch that meet nothing, of [`ESCAPE_RAYS`], in [0, 1]. Rays that
 /// meet a side which light cannot reach start where something stands on the patch and covers it: they do not count.

@@ -13,7 +13,7 @@ use rayon::prelude::*;
 /// Visibility rays to each patch.
 const RAYS: u32 = 32;
 /// Marks this use of (seed, index) among the others.
-const PASS: u64 = 0x73_656e_736f_72;
+const PASS: u64 = 0x7365_6e73_6f72;
 
 /// Irradiance E, W/m², on a small surface with unit `normal` at a `point` that need not lie on any surface: the sum over
 /// all patches of radiosity times form factor times visibility.
@@ -42,8 +42,7 @@ pub fn irradiance_in_space(world: &World, solution: &Solution, point: Vec3A, nor
 
 fn mean_radiosity(world: &World, solution: &Solution, patch: &Patch) -> Rgb64 {
     let elements = patch.elements.start as usize..patch.elements.end as usize;
-    let flux: Rgb64 =
-        elements.map(|i| solution.light.radiosity[i].as_dvec3() * world.mesh.elements[i].area).sum();
+    let flux: Rgb64 = elements.map(|i| solution.light.radiosity[i].as_dvec3() * world.mesh.elements[i].area).sum();
     if patch.area > 0.0 { flux / patch.area } else { Rgb64::ZERO }
 }
 

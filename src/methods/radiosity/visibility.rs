@@ -2,8 +2,8 @@
 
 use crate::math::random::Stream;
 use crate::math::warp::triangle;
-use crate::methods::Settings;
 use crate::mesh::{Element, Mesh, Patch};
+use crate::methods::Settings;
 use crate::tracer::Tracer;
 use crate::world::is_covered;
 use glam::{Vec2, Vec3A, Vec4};
@@ -41,13 +41,7 @@ pub struct Sightline<'a> {
 impl Sightline<'_> {
     /// Share of point pairs of element and shooter that see each other, among those that face each other, and the
     /// number of rays traced. `form_factor` is what it would be with nothing between them. `stream` shifts the pattern of points, so that neighbours do not err alike.
-    pub fn visible_share(
-        &self,
-        element: &Element,
-        normal: Vec3A,
-        form_factor: f64,
-        stream: &mut Stream,
-    ) -> (f64, u32) {
+    pub fn visible_share(&self, element: &Element, normal: Vec3A, form_factor: f64, stream: &mut Stream) -> (f64, u32) {
         let rays = self.rays.to(form_factor);
         let (corners, count) = self.mesh.element_corners(element);
         let receiver = (corners.map(Vec3A::from), count);
