@@ -169,9 +169,9 @@ impl Method for Radiosity {
         let world = self.world.clone();
         let shooter = &world.mesh.patches[patch];
         let shot = Shot {
-            mesh: &world.mesh,
+            world: &world,
             shooter: Shooter::new(shooter),
-            sightline: Sightline { mesh: &world.mesh, tracer: &world.tracer, shooter, rays },
+            sightline: Sightline::new(&world, shooter, rays),
             seed: self.settings.seed,
             step: self.steps,
             cancel,

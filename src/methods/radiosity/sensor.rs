@@ -1,6 +1,5 @@
 //! Irradiance at a point in space, gathered from all patches.
 
-use super::visibility::shooter_point;
 use crate::math::polygon::form_factor;
 use crate::math::random::{hash, sobol2};
 use crate::math::rgb::{Rgb, Rgb64};
@@ -48,9 +47,10 @@ fn mean_radiosity(world: &World, solution: &Solution, patch: &Patch) -> Rgb64 {
 
 /// Share of the patch's points above the horizon that the sensor sees.
 fn visible_share(world: &World, patch: &Patch, point: Vec3A, normal: Vec3A, seed: u32) -> f64 {
+    let region = patch.region();
     let (mut above, mut visible) = (0, 0);
     for i in 0..RAYS {
-        let to = world.tracer.lift(shooter_point(patch, sobol2(i, 0, seed)), patch.normal);
+        let to = world.tracer.lift(region.point(sobol2(i, 0, seed)), patch.normal);
         if (to - point).dot(normal) > 0.0 {
             above += 1;
             visible += u32::from(world.tracer.is_visible(point, to));
