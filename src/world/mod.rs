@@ -20,6 +20,9 @@ use surface::Surfaces;
 /// Surfaces that are nearer to each other than this share of the scene's radius touch: no light gets between them.
 const TOUCHING: f32 = 4e-4;
 
+/// Where an automatic mesh must be finer than usual, because the scene has many polygons.
+const ELEMENTS_PER_POLYGON: f64 = 4.0;
+
 /// A scene, its mesh and its tracer.
 pub struct World {
     /// The scene as mended: emitters may have been turned or moved, and its findings say so.
@@ -126,7 +129,8 @@ fn mesh(
         None => {
             let area =
                 is_reached.iter().enumerate().filter(|(_, reached)| **reached).map(|(side, _)| surfaces.area(side));
-            element_size_for(area.sum(), MeshSettings::DEFAULT_ELEMENTS)
+            let wanted = MeshSettings::DEFAULT_ELEMENTS.max(ELEMENTS_PER_POLYGON * scene.polygons.len() as f64);
+            element_size_for(scene, is_reached, area.sum(), wanted)
         }
     };
     let elements = estimated_elements(scene, is_reached, size);
