@@ -1,0 +1,63 @@
+//! What the doctor found in the scene and what it did about it.
+
+use super::widgets::{heading, primary_button};
+use crate::app::action::Action;
+use crate::app::model::{Model, SceneFacts};
+use crate::app::theme::{Palette, UNIT};
+use crate::scene::{Finding, Severity};
+use crate::worker::Command;
+use egui::{RichText, Ui};
+
+pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
+    let Some(scene) = model.scene else {
+        heading(ui, "Findings");
+        ui.label(RichText::new("No scene is open").weak());
+        return;
+    };
+    match scene.findings.len() {
+        0 => heading(ui, "Findings"),
+        n => heading(ui, &format!("Findings ({n})")),
+    }
+    if scene.is_dark() {
+        offer_light(ui, actions);
+    }
+    if scene.findings.is_empty() {
+        ui.label(RichText::new("Nothing had to be mended").weak());
+    }
+    for finding in sorted(&scene) {
+        entry(ui, finding);
+    }
+}
+
+/// Warnings first, each kind in the order of the file.
+fn sorted<'a>(scene: &SceneFacts<'a>) -> impl Iterator<Item = &'a Finding> {
+    let of = |severity| scene.findings.iter().filter(move |finding| finding.severity == severity);
+    of(Severity::Warning).chain(of(Severity::Note))
+}
+
+/// A scene without emitters stays dark; a light is offered, not forced on it.
+fn offer_light(ui: &mut Ui, actions: &mut Vec<Action>) {
+    ui.label("Nothing in this scene emits light, so there is nothing to see.");
+    let hover = "Adds a rectangle below the ceiling that is not in the file";
+    if ui.add(primary_button(ui, "Add a ceiling light")).on_hover_text(hover).clicked() {
+        actions.push(Action::Send(Command::AddCeilingLight));
+    }
+    ui.add_space(UNIT);
+}
+
+fn entry(ui: &mut Ui, finding: &Finding) {
+    let (icon, color) = match finding.severity {
+        Severity::Warning => ("⚠", Palette::of(ui.visuals()).warning),
+        Severity::Note => ("ℹ", ui.visuals().weak_text_color()),
+    };
+    ui.horizontal_top(|ui| {
+        ui.label(RichText::new(icon).color(color));
+        ui.vertical(|ui| {
+            ui.spacing_mut().item_spacing.y = UNIT / 2.0;
+            ui.label(RichText::new(&finding.subject).strong());
+            ui.label(&finding.problem);
+            ui.label(RichText::new(format!("→ {}", finding.remedy)).weak());
+        });
+    });
+    ui.add_space(UNIT);
+}
