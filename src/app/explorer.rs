@@ -6,11 +6,10 @@ use super::frame_clock::FrameClock;
 use super::model::{Dialog, Look, Model, PathPurpose, PictureFormat, PictureRequest, SceneFacts};
 use super::notices::Notices;
 use super::panels;
-use super::pictures::{Destination, Job, Pictures};
+use super::pictures::{self, Destination, Job, Pictures};
 use super::preferences::Preferences;
 use super::theme;
 use super::viewport_pane::ViewportPane;
-use crate::cli::picture;
 use crate::methods::Settings;
 use crate::scene::Source;
 use crate::worker::{Command, Snapshot, Worker};
@@ -193,7 +192,7 @@ impl Explorer {
             return;
         };
         let job = Job {
-            facts: picture::facts(world, solution, &self.snapshot.settings, &frame),
+            facts: pictures::facts(world, solution, &self.snapshot.settings, &frame),
             world: Arc::clone(world),
             solution: Arc::clone(solution),
             frame,

@@ -43,7 +43,9 @@ impl FileDialogs {
             .add_filter(extension.to_uppercase(), &[extension])
             .set_file_name(name);
         self.show(PathPurpose::SavePicture(request), move || {
-            dialog.save_file().map(|path| if path.extension().is_none() { path.with_extension(extension) } else { path })
+            dialog
+                .save_file()
+                .map(|path| if path.extension().is_none() { path.with_extension(extension) } else { path })
         });
     }
 

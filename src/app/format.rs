@@ -42,10 +42,33 @@ pub fn count(value: u64) -> String {
     grouped
 }
 
-/// A count with its noun in the right number: `1 shot`, `20 480 shots`.
+/// A count with its noun in the right number: `1 shot`, `20 480 shots`, `3 patches`.
 pub fn counted(value: u64, noun: &str) -> String {
-    let plural = if value == 1 { "" } else { "s" };
-    format!("{} {noun}{plural}", count(value))
+    let ending = match noun.as_bytes() {
+        _ if value == 1 => "",
+        [.., b'c' | b's', b'h'] | [.., b's' | b'x'] => "es",
+        _ => "s",
+    };
+    format!("{} {noun}{ending}", count(value))
+}
+
+/// A number with a fixed number of decimals and its unit: `−1.5 EV`.
+pub fn decimal(value: f64, decimals: usize, unit: &str) -> String {
+    format!("{}{THIN_SPACE}{unit}", minus(&format!("{value:.decimals$}")))
+}
+
+/// Reads a number as the functions of this module write it, or as people type it: with or without its unit, with an SI
+/// prefix before it, with any spaces and either minus sign. `None` if it is no finite number.
+pub fn parse(text: &str, unit: &str) -> Option<f64> {
+    let text: String = text.chars().filter(|c| !c.is_whitespace()).collect();
+    let text = text.replace('\u{2212}', "-");
+    let text = text.strip_suffix(unit).unwrap_or(&text);
+    let (number, exponent) = match PREFIXES.iter().position(|prefix| !prefix.is_empty() && text.ends_with(prefix)) {
+        Some(k) => (text.strip_suffix(PREFIXES[k])?, 3 * (k as i32 - 4)),
+        None => (text, 0),
+    };
+    let value = number.parse::<f64>().ok()? * 10_f64.powi(exponent);
+    value.is_finite().then_some(value)
 }
 
 /// A share of one as a percentage, with at least two significant digits: `42.0 %`, `0.10 %`, `2.5×10⁻⁵ %`.
@@ -60,6 +83,13 @@ pub fn percent(share: f64) -> String {
         _ => scientific(percent),
     };
     format!("{}{THIN_SPACE}%", minus(&number))
+}
+
+/// A share of one as a percentage, without zeros at its end: `100 %`, `0.1 %`.
+pub fn percent_short(share: f64) -> String {
+    // Two significant digits first, so that 0.1 % is not 0.100000000000001 %.
+    let percent: f64 = format!("{:.1e}", 100.0 * share).parse().unwrap_or(f64::NAN);
+    format!("{percent}{THIN_SPACE}%")
 }
 
 /// Two significant digits and a power of ten: `3.1×10⁻⁷`; zero is `0`.
@@ -99,11 +129,7 @@ fn minus(number: &str) -> String {
 
 fn superscript(exponent: i32) -> String {
     const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
-    exponent
-        .to_string()
-        .chars()
-        .map(|c| c.to_digit(10).map_or('⁻', |digit| DIGITS[digit as usize]))
-        .collect()
+    exponent.to_string().chars().map(|c| c.to_digit(10).map_or('⁻', |digit| DIGITS[digit as usize])).collect()
 }
 
 #[cfg(test)]
@@ -137,6 +163,25 @@ mod tests {
     }
 
     #[test]
+    fn plurals() {
+        assert_eq!(counted(2, "patch"), "2 patches");
+        assert_eq!(counted(0, "ray"), "0 rays");
+    }
+
+    #[test]
+    fn what_is_written_can_be_read() {
+        for value in [0.0156, 3.0, -0.5e-6, 2.5e7] {
+            let read = parse(&si(value, "m"), "m");
+            assert!(read.is_some_and(|read| (read - value).abs() < 1e-9 * value.abs()), "{value} became {read:?}");
+        }
+        assert_eq!(parse(&count(12_345), ""), Some(12_345.0));
+        assert_eq!(parse("0.1", "%"), Some(0.1));
+        assert_eq!(parse("-2 EV", "EV"), Some(-2.0));
+        assert_eq!(parse("bright", "EV"), None);
+        assert_eq!(parse("inf", "m"), None);
+    }
+
+    #[test]
     fn percentages_keep_two_significant_digits() {
         assert_eq!(shown(percent(1.0)), "100.0_%");
         assert_eq!(shown(percent(0.0123)), "1.23_%");
@@ -144,6 +189,8 @@ mod tests {
         assert_eq!(shown(percent(0.000_5)), "0.0500_%");
         assert_eq!(shown(percent(2.5e-7)), "2.5×10⁻⁵_%");
         assert_eq!(shown(percent(0.0)), "0_%");
+        assert_eq!(shown(percent_short(10_f64.powi(-3))), "0.1_%");
+        assert_eq!(shown(percent_short(1.0)), "100_%");
     }
 
     #[test]

@@ -63,7 +63,7 @@ pub fn run(options: Options) -> Result<(), AppError> {
         wgpu_options: wgpu_configuration(options.adapter),
         ..eframe::NativeOptions::default()
     };
-    eframe::run_native("lightwell", native, Box::new(|context| Ok(Box::new(Explorer::new(context, scene)))))
+    eframe::run_native("lightwell", native, Box::new(|context| Ok(Box::new(Explorer::new(context, scene)?))))
         .map_err(app_error)
 }
 

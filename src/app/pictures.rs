@@ -2,6 +2,7 @@
 
 use super::model::PictureFormat;
 use crate::cli::picture;
+use crate::methods::Settings;
 use crate::solution::Solution;
 use crate::viewport::{Frame, Gpu, render_picture};
 use crate::world::World;
@@ -70,6 +71,30 @@ fn save(gpu: &Gpu, job: &Job) -> Result<PathBuf, String> {
     };
     picture::save(&path, &picture, &job.facts).map_err(|error| chain(&error))?;
     Ok(path)
+}
+
+/// What a picture says of itself: enough to make it again.
+pub fn facts(world: &World, solution: &Solution, settings: &Settings, frame: &Frame) -> Vec<(String, String)> {
+    let element_size = settings.mesh.element_size.map_or_else(|| "automatic".to_owned(), |size| format!("{size} m"));
+    let viewpoint = frame.camera.viewpoint();
+    let facts = [
+        ("Software", concat!("Lightwell ", env!("CARGO_PKG_VERSION")).to_owned()),
+        ("Scene", world.scene.name.clone()),
+        ("View", frame.view.to_string()),
+        ("Eye", format!("{}", viewpoint.eye)),
+        ("Target", format!("{}", viewpoint.target)),
+        ("Up", format!("{}", viewpoint.up)),
+        ("Vertical field of view", format!("{} deg", viewpoint.vertical_fov)),
+        ("Exposure", format!("{} EV, {}", frame.exposure_ev, frame.tone)),
+        ("Method", "progressive radiosity".to_owned()),
+        ("Element size", element_size),
+        ("Shadow rays", settings.shadow_rays.to_string()),
+        ("Stop limit", settings.unshot_limit.to_string()),
+        ("Steps", solution.steps.to_string()),
+        ("Seconds", format!("{:.3}", solution.elapsed.as_secs_f64())),
+        ("Seed", settings.seed.to_string()),
+    ];
+    facts.map(|(key, value)| (key.to_owned(), value)).into()
 }
 
 /// The folder for pictures that were not given one: `Pictures` in the home folder, else the current one.

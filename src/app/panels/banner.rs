@@ -1,5 +1,6 @@
 //! What went wrong last, above the viewport, with the way out of it.
 
+use super::icons::Icon;
 use super::widgets::primary_button;
 use crate::app::action::Action;
 use crate::app::model::Model;
@@ -19,7 +20,7 @@ pub fn message<'a>(model: &Model<'a>) -> Option<&'a str> {
 pub fn show(ui: &mut Ui, model: &Model, message: &str, actions: &mut Vec<Action>) {
     let palette = Palette::of(ui.visuals());
     ui.horizontal(|ui| {
-        ui.label(RichText::new("⚠").color(palette.error));
+        Icon::Warning.show(ui, palette.error);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if *model.phase == Phase::Crashed {
                 let hover = "Starts the solver afresh on the same scene; what it had computed is lost";

@@ -1,6 +1,6 @@
 //! The dialogs: saving a picture, typing a path, the keys, and what this program is.
 
-use super::widgets::{Choice, heading, labelled, primary_button, segmented};
+use super::widgets::{Choice, heading, labelled, primary_button, row, segmented};
 use crate::app::action::Action;
 use crate::app::keys::BINDINGS;
 use crate::app::model::{Dialog, Model, PathPurpose, PictureFormat, PictureRequest};
@@ -13,7 +13,7 @@ const MAX_SIDE: u32 = 8192;
 
 pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     let Some(dialog) = model.dialog else { return };
-    let modal = Modal::new(Id::new("dialog")).show(ui.ctx(), |ui| {
+    let modal = Modal::new(Id::unique("dialog")).show(ui.ctx(), |ui| {
         ui.set_width(100.0 * UNIT);
         match dialog {
             Dialog::Picture(request) => picture(ui, model, *request, actions),
@@ -33,7 +33,7 @@ fn picture(ui: &mut Ui, model: &Model, request: PictureRequest, actions: &mut Ve
     sizes(ui, model, &mut edited);
     labelled(ui, "Width", "In pixels", |ui| ui.add(side(&mut edited.size[0])));
     labelled(ui, "Height", "In pixels", |ui| ui.add(side(&mut edited.size[1])));
-    row(ui, "Samples a pixel", |ui| {
+    row(ui, "Samples", "Samples a pixel", |ui, _| {
         let choices = SAMPLES.map(|(samples, name)| Choice {
             name,
             hover: "More samples make smoother edges and take longer",
@@ -44,7 +44,7 @@ fn picture(ui: &mut Ui, model: &Model, request: PictureRequest, actions: &mut Ve
             edited.samples = SAMPLES[chosen].0;
         }
     });
-    row(ui, "Format", |ui| {
+    row(ui, "Format", "What is written", |ui, _| {
         let choices = FORMATS.map(|(format, name, hover)| Choice {
             name,
             hover,
@@ -92,10 +92,13 @@ fn side(pixels: &mut u32) -> DragValue<'_> {
 
 /// A path in a text field, for systems without a file dialog of their own.
 fn path(ui: &mut Ui, purpose: PathPurpose, text: &str, actions: &mut Vec<Action>) {
-    heading(ui, match purpose {
-        PathPurpose::OpenScene => "Open a scene",
-        PathPurpose::SavePicture(_) => "Save a picture",
-    });
+    heading(
+        ui,
+        match purpose {
+            PathPurpose::OpenScene => "Open a scene",
+            PathPurpose::SavePicture(_) => "Save a picture",
+        },
+    );
     ui.label(RichText::new("This system has no file dialog (xdg-desktop-portal or zenity would be one).").weak());
     let label = ui.label("Path of the file");
     let mut edited = text.to_owned();
@@ -152,13 +155,6 @@ fn about(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     ui.label(RichText::new(format!("Draws on {}", model.adapter)).weak());
     ui.label(RichText::new(concat!("Licence: ", env!("CARGO_PKG_LICENSE"))).weak());
     close_button(ui, actions);
-}
-
-fn row(ui: &mut Ui, name: &str, control: impl FnOnce(&mut Ui)) {
-    ui.horizontal(|ui| {
-        ui.label(name);
-        ui.with_layout(Layout::right_to_left(Align::Center), control);
-    });
 }
 
 /// `Cancel` and the button that does what the dialog is for; both close it.

@@ -1,5 +1,6 @@
 //! What the doctor found in the scene and what it did about it.
 
+use super::icons::Icon;
 use super::widgets::{heading, primary_button};
 use crate::app::action::Action;
 use crate::app::model::{Model, SceneFacts};
@@ -46,17 +47,17 @@ fn offer_light(ui: &mut Ui, actions: &mut Vec<Action>) {
 }
 
 fn entry(ui: &mut Ui, finding: &Finding) {
-    let (icon, color) = match finding.severity {
-        Severity::Warning => ("⚠", Palette::of(ui.visuals()).warning),
-        Severity::Note => ("ℹ", ui.visuals().weak_text_color()),
+    let (icon, color, name) = match finding.severity {
+        Severity::Warning => (Icon::Warning, Palette::of(ui.visuals()).warning, "Warning"),
+        Severity::Note => (Icon::Note, ui.visuals().weak_text_color(), "Note"),
     };
     ui.horizontal_top(|ui| {
-        ui.label(RichText::new(icon).color(color));
+        icon.show(ui, color).on_hover_text(name);
         ui.vertical(|ui| {
             ui.spacing_mut().item_spacing.y = UNIT / 2.0;
             ui.label(RichText::new(&finding.subject).strong());
             ui.label(&finding.problem);
-            ui.label(RichText::new(format!("→ {}", finding.remedy)).weak());
+            ui.label(RichText::new(&finding.remedy).weak());
         });
     });
     ui.add_space(UNIT);

@@ -1,6 +1,6 @@
 //! Where the emitted light is, as a bar that closes: absorbed, unshot and escaped must add up to emitted.
 
-use super::widgets::{chip, figure};
+use super::widgets::{chip, figure, figure_row};
 use crate::app::format;
 use crate::app::model::Model;
 use crate::app::theme::{Palette, UNIT};
@@ -88,22 +88,23 @@ fn bar(ui: &mut Ui, entries: &[Entry], emitted: f64) {
 }
 
 fn row(ui: &mut Ui, entry: &Entry, emitted: f64) {
-    ui.horizontal(|ui| {
+    figure_row(ui, entry.meaning, |ui| {
         chip(ui, entry.color);
         ui.label(entry.name);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             column(ui, 18.0 * UNIT, format::percent(share(entry.flux, emitted)));
-            column(ui, 20.0 * UNIT, watts(entry.flux));
+            column(ui, 18.0 * UNIT, watts(entry.flux));
         });
-    })
-    .response
-    .on_hover_text(entry.meaning);
+    });
 }
 
 /// A figure at the right of a column of this width.
 fn column(ui: &mut Ui, width: f32, text: String) {
-    let size = vec2(width, ui.spacing().interact_size.y * 0.75);
-    ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Center), |ui| ui.label(text));
+    let size = vec2(width, ui.spacing().interact_size.y);
+    ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Center), |ui| {
+        ui.set_min_width(width);
+        ui.label(text);
+    });
 }
 
 fn defect(ui: &mut Ui, energy: &Energy, emitted: f64) {
@@ -125,11 +126,8 @@ fn defect(ui: &mut Ui, energy: &Energy, emitted: f64) {
 }
 
 fn closure(ui: &mut Ui, solution: &Solution) {
-    let text = format!(
-        "mean {}, worst {}",
-        format::percent(solution.closure.mean),
-        format::percent(solution.closure.worst)
-    );
+    let text =
+        format!("mean {}, worst {}", format::percent(solution.closure.mean), format::percent(solution.closure.worst));
     figure(
         ui,
         "Closure",

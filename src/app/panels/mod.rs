@@ -4,6 +4,7 @@ mod banner;
 mod dialogs;
 mod exposure;
 mod findings;
+mod icons;
 mod ledger;
 mod menu_bar;
 mod notices;

@@ -24,7 +24,7 @@ fn entry(ui: &mut Ui, notice: &Notice, actions: &mut Vec<Action>) {
     frame.show(ui, |ui| {
         ui.horizontal(|ui| {
             ui.label(RichText::new(&notice.text).color(color));
-            let close = ui.add(Button::new("✖").frame(false)).accessible_name("Dismiss message");
+            let close = ui.add(Button::new("×").frame(false)).accessible_name("Dismiss message");
             if close.on_hover_text("Dismiss").clicked() {
                 actions.push(Action::DismissNotice(notice.id));
             }

@@ -1,12 +1,12 @@
 //! What the solver is told: how finely to cut, how many rays to trace, when to stop. A slider takes effect when it is let
 //! go, a number when it is entered.
 
-use super::widgets::labelled;
+use super::widgets::{labelled, slider};
 use crate::app::action::Action;
 use crate::app::format;
 use crate::app::model::Model;
 use crate::methods::Settings;
-use egui::{Checkbox, DragValue, Response, RichText, Slider, Ui};
+use egui::{Checkbox, DragValue, Response, RichText, Ui};
 
 pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     element_size(ui, model, actions);
@@ -21,8 +21,8 @@ fn element_size(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     let Some(scene) = model.scene else { return };
     let mut settings = model.settings;
     let mut automatic = settings.mesh.element_size.is_none();
-    let hover = "Cuts the surfaces so that the whole scene has a few ten thousand elements";
-    let response = labelled(ui, "Automatic elements", hover, |ui| ui.add(Checkbox::without_text(&mut automatic)));
+    let hover = "Chooses the size of the elements so that they show soft shadows and shots are quick";
+    let response = labelled(ui, "Automatic mesh", hover, |ui| ui.add(Checkbox::without_text(&mut automatic)));
     if response.changed() {
         settings.mesh.element_size = (!automatic).then_some(scene.element_size);
         actions.push(Action::ApplySettings(settings));
@@ -31,7 +31,7 @@ fn element_size(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     let range = scene.radius / 1000.0..=scene.radius / 2.0;
     let hover = "Longest edge of an element. Half the size makes four times the elements.";
     let response = labelled(ui, "Element size", hover, |ui| {
-        ui.add(Slider::new(&mut size, range).logarithmic(true).custom_formatter(|size, _| format::si(size, "m")))
+        slider(ui, &mut size, range, true, |size| format::si(size, "m"), |text| format::parse(text, "m"))
     });
     settings.mesh.element_size = Some(size);
     apply_when_done(&response, settings, actions);
@@ -39,18 +39,20 @@ fn element_size(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
 
 fn shadow_rays(ui: &mut Ui, mut settings: Settings, actions: &mut Vec<Action>) {
     let hover = "Rays from each receiving point to the shooter, which find out how much of it is in sight";
-    let slider = Slider::new(&mut settings.shadow_rays, 1..=256).logarithmic(true);
-    let response = labelled(ui, "Shadow rays", hover, |ui| ui.add(slider));
+    let response = labelled(ui, "Shadow rays", hover, |ui| {
+        let rays = &mut settings.shadow_rays;
+        slider(ui, rays, 1..=256, true, |rays| format::count(rays as u64), |text| format::parse(text, ""))
+    });
     apply_when_done(&response, settings, actions);
 }
 
 fn stop_limit(ui: &mut Ui, mut settings: Settings, actions: &mut Vec<Action>) {
     let hover = "Stops when this share of the emitted flux is left unshot";
-    let slider = Slider::new(&mut settings.unshot_limit, 1e-5..=0.1)
-        .logarithmic(true)
-        .custom_formatter(|share, _| format::percent(share))
-        .custom_parser(|text| text.trim().trim_end_matches('%').trim().parse::<f64>().ok().map(|p| p / 100.0));
-    let response = labelled(ui, "Stop at", hover, |ui| ui.add(slider));
+    let response = labelled(ui, "Stop at", hover, |ui| {
+        let limit = &mut settings.unshot_limit;
+        let parse = |text: &str| format::parse(text, "%").map(|percent| percent / 100.0);
+        slider(ui, limit, 1e-5..=0.1, true, format::percent, parse)
+    });
     apply_when_done(&response, settings, actions);
 }
 
@@ -63,7 +65,7 @@ fn seed(ui: &mut Ui, mut settings: Settings, actions: &mut Vec<Action>) {
 
 /// Sends the settings once a drag ends or a value is entered; until then the controls only show them.
 fn apply_when_done(response: &Response, settings: Settings, actions: &mut Vec<Action>) {
-    if response.drag_stopped() || response.changed() && !response.dragged() {
+    if response.drag_stopped() || (response.changed() && !response.dragged()) {
         actions.push(Action::ApplySettings(settings));
     } else if response.changed() {
         actions.push(Action::EditSettings(settings));

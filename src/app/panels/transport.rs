@@ -1,6 +1,7 @@
 //! Run, step and reset, and how far the light has come.
 
-use super::widgets::{outline, primary_button, with_key};
+use super::icons::Icon;
+use super::widgets::with_key;
 use crate::app::action::Action;
 use crate::app::format;
 use crate::app::keys;
@@ -8,7 +9,9 @@ use crate::app::model::Model;
 use crate::app::theme::{Palette, UNIT};
 use crate::worker::{Command, Phase};
 use egui::accesskit::Role;
-use egui::{Align2, Button, FontId, Rect, Response, Sense, Ui, WidgetInfo, pos2, vec2};
+use egui::{
+    Align2, Atom, Button, FontId, IdSalt, Painter, Rect, Response, RichText, Sense, Ui, WidgetInfo, pos2, vec2,
+};
 
 pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     ui.horizontal(|ui| {
@@ -20,7 +23,7 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
         ui.add_space(2.0 * UNIT);
         ui.add_enabled_ui(model.scene.is_some(), |ui| {
             let hover = with_key(ui, "Starts over from the emitters, paused", Some(&keys::RESET));
-            if ui.button("⟲ Reset").accessible_name("Reset").on_hover_text(hover).clicked() {
+            if ui.button("Reset").on_hover_text(hover).clicked() {
                 actions.push(Action::Send(Command::Reset));
             }
         });
@@ -30,17 +33,23 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
 }
 
 fn run_button(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
-    let (text, name, hover) = if model.is_running() {
-        ("⏸ Pause", "Pause", "Stops after the present shot")
+    let palette = Palette::of(ui.visuals());
+    let (icon, name, hover, color) = if model.is_running() {
+        (Icon::Pause, "Pause", "Stops after the present shot", ui.visuals().text_color())
     } else {
-        ("▶ Run", "Run", "Shoots light until the stop limit is reached")
+        (Icon::Run, "Run", "Shoots light until the stop limit is reached", palette.on_accent)
     };
-    let button = if model.is_running() { Button::new(text) } else { primary_button(ui, text) };
-    let response = ui
-        .add(button.min_size(vec2(24.0 * UNIT, ui.spacing().interact_size.y)))
-        .accessible_name(name)
-        .on_hover_text(with_key(ui, hover, Some(&keys::RUN)));
-    if response.clicked() {
+    let icon_place = IdSalt::new("icon");
+    let place = Atom::custom(icon_place, vec2(Icon::SIZE, Icon::SIZE));
+    let mut button = Button::new((place, RichText::new(name).color(color)));
+    if !model.is_running() {
+        button = button.fill(palette.accent);
+    }
+    let button = button.min_size(vec2(24.0 * UNIT, ui.spacing().interact_size.y)).atom_ui(ui);
+    if let Some(rect) = button.rect(icon_place) {
+        icon.paint(ui.painter(), rect, color);
+    }
+    if button.response.on_hover_text(with_key(ui, hover, Some(&keys::RUN))).clicked() {
         actions.push(keys::run_or_pause(model));
     }
 }
@@ -86,20 +95,37 @@ fn progress_text(model: &Model) -> String {
 fn paint_progress(ui: &Ui, rect: Rect, model: &Model, text: &str) {
     let palette = Palette::of(ui.visuals());
     let painter = ui.painter_at(rect);
-    let text_width = 26.0 * UNIT;
+    let text_width = 28.0 * UNIT;
     let bar = Rect::from_min_max(
-        pos2(rect.left(), rect.center().y - UNIT),
-        pos2((rect.right() - text_width).max(rect.left()), rect.center().y + UNIT),
+        pos2(rect.left(), rect.top() + UNIT),
+        pos2((rect.right() - text_width).max(rect.left()), rect.top() + 3.0 * UNIT),
     );
     painter.rect_filled(bar, UNIT, ui.visuals().widgets.inactive.bg_fill);
     let filled = bar.with_max_x(bar.left() + bar.width() * model.progress());
     painter.rect_filled(filled, UNIT, palette.accent);
-
-    let decades = -model.settings.unshot_limit.log10();
-    for decade in 1..decades.ceil() as u32 {
-        let x = bar.left() + bar.width() * (f64::from(decade) / decades) as f32;
-        painter.vline(x, bar.bottom() + 2.0..=bar.bottom() + 2.0 + UNIT, outline(ui));
-    }
+    ticks(ui, &painter, bar, model.settings.unshot_limit);
     let color = ui.visuals().text_color();
-    painter.text(rect.right_center(), Align2::RIGHT_CENTER, text, FontId::proportional(14.0), color);
+    let right = pos2(rect.right(), rect.center().y);
+    painter.text(right, Align2::RIGHT_CENTER, text, FontId::proportional(14.0), color);
+}
+
+/// A tick below the bar at each tenth of what is left, from 100 % at its left end to the limit at its right end.
+fn ticks(ui: &Ui, painter: &Painter, bar: Rect, limit: f64) {
+    let color = ui.visuals().weak_text_color();
+    let decades = -limit.log10();
+    let label = |x: f32, align: Align2, share: f64| {
+        painter.text(
+            pos2(x, bar.bottom() + 2.0),
+            align,
+            format::percent_short(share),
+            FontId::proportional(10.0),
+            color,
+        );
+    };
+    label(bar.left(), Align2::LEFT_TOP, 1.0);
+    label(bar.right(), Align2::RIGHT_TOP, limit);
+    for decade in (1..).take_while(|&decade| f64::from(decade) < decades - 0.3) {
+        let x = bar.left() + bar.width() * (f64::from(decade) / decades) as f32;
+        label(x, Align2::CENTER_TOP, 10_f64.powi(-decade));
+    }
 }

@@ -43,8 +43,7 @@ fn camera(ui: &Ui, response: &Response, actions: &mut Vec<Action>) {
         actions.push(Action::Camera(CameraMove::Fit));
     }
     if response.hovered() {
-        let factor =
-            ui.input(|input| (-ZOOM_PER_POINT * input.smooth_scroll_delta().y).exp() / input.zoom_delta());
+        let factor = ui.input(|input| (-ZOOM_PER_POINT * input.smooth_scroll_delta().y).exp() / input.zoom_delta());
         if factor != 1.0 {
             actions.push(Action::Camera(CameraMove::Zoom(factor)));
         }
@@ -98,7 +97,7 @@ fn dropped_files(ui: &Ui, rect: Rect, actions: &mut Vec<Action>) {
 
 /// A box of text in the middle of the viewport, above everything in it.
 fn overlay(ui: &Ui, rect: Rect, name: &str, contents: impl FnOnce(&mut Ui)) {
-    Area::new(Id::new(("viewport overlay", name)))
+    Area::new(Id::unique(("viewport overlay", name)))
         .order(Order::Foreground)
         .pivot(Align2::CENTER_CENTER)
         .fixed_pos(rect.center())

@@ -1,9 +1,12 @@
 //! The few widgets that several panels share.
 
 use crate::app::theme::{Palette, UNIT};
+use egui::emath::Numeric;
 use egui::{
-    Align, Button, CornerRadius, KeyboardShortcut, Layout, Response, RichText, Sense, Stroke, TextStyle, Ui, vec2,
+    Align, Button, CornerRadius, KeyboardShortcut, Layout, Response, RichText, Sense, Slider, SliderClamping,
+    TextStyle, Ui, vec2,
 };
+use std::ops::RangeInclusive;
 
 /// A titled part of the side panel, with a line below it.
 pub fn section(ui: &mut Ui, title: &str, contents: impl FnOnce(&mut Ui)) {
@@ -19,24 +22,66 @@ pub fn heading(ui: &mut Ui, title: &str) {
     ui.add_space(UNIT);
 }
 
-/// A row with a label at the left and its control at the right, named by the label for screen readers.
+/// A row of a form: a label, and in a column of their own its controls. The label names the control for screen readers.
 pub fn labelled(ui: &mut Ui, label: &str, hover: &str, control: impl FnOnce(&mut Ui) -> Response) -> Response {
+    row(ui, label, hover, |ui, label| control(ui).labelled_by(label.id)).on_hover_text(hover)
+}
+
+/// A row of a form whose controls name themselves.
+pub fn row<R>(ui: &mut Ui, label: &str, hover: &str, controls: impl FnOnce(&mut Ui, &Response) -> R) -> R {
     ui.horizontal(|ui| {
-        let label = ui.label(label).on_hover_text(hover);
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| control(ui).labelled_by(label.id)).inner
+        let size = vec2(LABEL_WIDTH, ui.spacing().interact_size.y);
+        let layout = Layout::left_to_right(Align::Center);
+        let label = ui.allocate_ui_with_layout(size, layout, |ui| {
+            ui.set_min_width(LABEL_WIDTH);
+            ui.label(label).on_hover_text(hover)
+        });
+        controls(ui, &label.inner)
     })
     .inner
-    .on_hover_text(hover)
 }
+
+/// Width of the labels of a form.
+const LABEL_WIDTH: f32 = 24.0 * UNIT;
+
+/// A slider across the rest of its row, with its value as `format` writes it and `parse` reads it.
+pub fn slider<'a, N: Numeric>(
+    ui: &mut Ui,
+    value: &'a mut N,
+    range: RangeInclusive<N>,
+    is_logarithmic: bool,
+    format: impl Fn(f64) -> String + 'a,
+    parse: impl Fn(&str) -> Option<f64> + 'a,
+) -> Response {
+    ui.spacing_mut().slider_width = ui.available_width() - VALUE_WIDTH - ui.spacing().item_spacing.x;
+    ui.spacing_mut().interact_size.x = VALUE_WIDTH;
+    // A value that is out of range stays until it is edited: only the person changes settings.
+    let slider = Slider::new(value, range)
+        .clamping(SliderClamping::Edits)
+        .logarithmic(is_logarithmic)
+        .update_while_editing(false)
+        .custom_formatter(move |value, _| format(value))
+        .custom_parser(parse);
+    ui.add(slider)
+}
+
+/// Width of a slider's value.
+const VALUE_WIDTH: f32 = 18.0 * UNIT;
 
 /// A row of a table of figures: a name at the left, a value at the right.
 pub fn figure(ui: &mut Ui, name: &str, value: impl Into<RichText>, hover: &str) {
-    ui.horizontal(|ui| {
+    figure_row(ui, hover, |ui| {
         ui.label(RichText::new(name).weak());
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| ui.label(value.into()));
-    })
-    .response
-    .on_hover_text(hover);
+    });
+}
+
+/// A row of a table of figures, lower than one with controls.
+pub fn figure_row(ui: &mut Ui, hover: &str, contents: impl FnOnce(&mut Ui)) {
+    ui.scope(|ui| {
+        ui.spacing_mut().interact_size.y = 5.0 * UNIT;
+        ui.horizontal(contents).response.on_hover_text(hover);
+    });
 }
 
 /// One choice of a row of buttons.
@@ -92,9 +137,4 @@ pub fn with_key(ui: &Ui, sentence: &str, shortcut: Option<&KeyboardShortcut>) ->
 pub fn chip(ui: &mut Ui, color: egui::Color32) {
     let (rect, _) = ui.allocate_exact_size(vec2(3.0 * UNIT, 3.0 * UNIT), Sense::hover());
     ui.painter().rect_filled(rect, 3, color);
-}
-
-/// The line around a bar or a message.
-pub fn outline(ui: &Ui) -> Stroke {
-    ui.visuals().widgets.noninteractive.bg_stroke
 }
