@@ -15,14 +15,15 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     let look = model.look;
     let mut automatic = look.exposure == Exposure::Automatic;
     let hover = "Foresees how bright the scene will be in the end, so that light is seen to grow";
-    let response = labelled(ui, "Automatic", hover, |ui| ui.add(Checkbox::without_text(&mut automatic)));
+    let response = row(ui, "Exposure", hover, |ui, _| ui.add(Checkbox::new(&mut automatic, "Automatic")));
+    let response = response.accessible_name("Automatic exposure").on_hover_text(hover);
     if response.changed() {
         let exposure = if automatic { Exposure::Automatic } else { Exposure::Manual(model.exposure_ev) };
         actions.push(Action::SetLook(Look { exposure, ..look }));
     }
     let mut ev = model.exposure_ev;
     let hover = "Each stop (EV) doubles the brightness. Moving the slider turns automatic exposure off.";
-    let response = labelled(ui, "Exposure", hover, |ui| {
+    let response = labelled(ui, "Stops", hover, |ui| {
         slider(ui, &mut ev, RANGE, false, |ev| format::decimal(ev, 1, "EV"), |text| format::parse(text, "EV"))
     });
     if response.changed() {

@@ -29,8 +29,8 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>, paint: impl F
     let side_frame = Frame::side_top_panel(ui.style()).inner_margin(Margin::ZERO);
     Panel::right("side panel")
         .frame(side_frame)
-        .default_size(SIDE_PANEL_WIDTH)
-        .size_range(SIDE_PANEL_WIDTH..=1.5 * SIDE_PANEL_WIDTH)
+        .resizable(false)
+        .exact_size(SIDE_PANEL_WIDTH)
         .show(ui, |ui| side_panel(ui, model, actions));
     CentralPanel::no_frame().show(ui, |ui| {
         Panel::top("view bar").frame(bar_frame(ui, 6)).show(ui, |ui| view_bar::show(ui, model, actions));
@@ -54,6 +54,7 @@ fn bar_frame(ui: &Ui, vertical: i8) -> Frame {
 fn side_panel(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         Frame::new().inner_margin(Margin::symmetric(16, 12)).show(ui, |ui| {
+            ui.spacing_mut().item_spacing.y = UNIT;
             widgets::section(ui, "Energy", |ui| ledger::show(ui, model));
             widgets::section(ui, "Exposure", |ui| exposure::show(ui, model, actions));
             widgets::section(ui, "Settings", |ui| settings::show(ui, model, actions));

@@ -1,7 +1,7 @@
 //! What the solver is told: how finely to cut, how many rays to trace, when to stop. A slider takes effect when it is let
 //! go, a number when it is entered.
 
-use super::widgets::{labelled, slider};
+use super::widgets::{labelled, row, slider};
 use crate::app::action::Action;
 use crate::app::format;
 use crate::app::model::Model;
@@ -22,7 +22,8 @@ fn element_size(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     let mut settings = model.settings;
     let mut automatic = settings.mesh.element_size.is_none();
     let hover = "Chooses the size of the elements so that they show soft shadows and shots are quick";
-    let response = labelled(ui, "Automatic mesh", hover, |ui| ui.add(Checkbox::without_text(&mut automatic)));
+    let response = row(ui, "Mesh", hover, |ui, _| ui.add(Checkbox::new(&mut automatic, "Automatic")));
+    let response = response.accessible_name("Automatic mesh").on_hover_text(hover);
     if response.changed() {
         settings.mesh.element_size = (!automatic).then_some(scene.element_size);
         actions.push(Action::ApplySettings(settings));

@@ -8,6 +8,7 @@ use crate::worker::Phase;
 use egui::{Align, Layout, RichText, Ui};
 
 pub fn show(ui: &mut Ui, model: &Model) {
+    ui.spacing_mut().interact_size.y = 5.0 * UNIT;
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0 * UNIT;
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {

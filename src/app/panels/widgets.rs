@@ -53,7 +53,7 @@ pub fn slider<'a, N: Numeric>(
     format: impl Fn(f64) -> String + 'a,
     parse: impl Fn(&str) -> Option<f64> + 'a,
 ) -> Response {
-    ui.spacing_mut().slider_width = ui.available_width() - VALUE_WIDTH - ui.spacing().item_spacing.x;
+    ui.spacing_mut().slider_width = ui.available_width() - VALUE_WIDTH - ui.spacing().item_spacing.x - UNIT;
     ui.spacing_mut().interact_size.x = VALUE_WIDTH;
     // A value that is out of range stays until it is edited: only the person changes settings.
     let slider = Slider::new(value, range)
