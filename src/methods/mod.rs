@@ -1,4 +1,4 @@
-//! The ways to simulate light. Each is plain state and a step.
+//! The ways to simulate light. Each is plain state and a step: no threads of its own, no clock, no file, no window.
 
 pub mod radiosity;
 
@@ -22,7 +22,7 @@ pub trait Method: Send {
     /// Does one bounded piece of work, all of it or nothing.
     fn step(&mut self, cancel: &Cancel) -> Step;
 
-    /// Copies out what is known so far.
+    /// Copies out what is known so far. Its `elapsed` is zero: whoever steps the method holds the clock.
     fn solution(&self) -> Solution;
 }
 
@@ -32,14 +32,21 @@ pub struct Settings {
     pub mesh: MeshSettings,
     /// Stop when at most this share of the emitted flux is unshot.
     pub unshot_limit: f64,
-    /// Visibility rays from a receiver to a shooter.
+    /// Visibility rays from a receiver to the shooter with the most flux. Others get fewer, in proportion to theirs:
+    /// for a given number of rays in all this keeps the noise of the sum lowest.
     pub shadow_rays: u32,
     /// Every random number comes from this.
     pub seed: u64,
 }
 
+impl Settings {
+    /// The fewest visibility rays of any pair, unless [`Settings::shadow_rays`] is lower.
+    pub const MIN_SHADOW_RAYS: u32 = 4;
+    pub const MAX_SHADOW_RAYS: u32 = 1024;
+}
+
 impl Default for Settings {
     fn default() -> Self {
-        Self { mesh: MeshSettings { element_size: None }, unshot_limit: 1e-3, shadow_rays: 8, seed: 0 }
+        Self { mesh: MeshSettings::default(), unshot_limit: 1e-3, shadow_rays: 64, seed: 0 }
     }
 }

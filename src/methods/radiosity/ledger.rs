@@ -1,0 +1,65 @@
+//! The books of a run: where the emitted flux went, and how far form factors were from adding up.
+
+use super::escape::Outlook;
+use crate::math::rgb::Rgb64;
+use crate::solution::Closure;
+
+/// Sums that only grow; what is absorbed and unshot is counted from the elements and patches themselves.
+pub struct Ledger {
+    /// Σ A M_e, W.
+    pub emitted: Rgb64,
+    /// W.
+    pub escaped: Rgb64,
+    closure_sum: f64,
+    closure_worst: f64,
+    rows: u64,
+}
+
+impl Ledger {
+    pub fn new(emitted: Rgb64) -> Self {
+        Self { emitted, escaped: Rgb64::ZERO, closure_sum: 0.0, closure_worst: 0.0, rows: 0 }
+    }
+
+    /// Closes the row of a shooter that shoots `flux` (W): its form factors sum to `row`, its rays say how much escapes.
+    /// Returns the factor that makes both together 1, books what escapes, and keeps the error of before in mind.
+    pub fn close_row(&mut self, flux: Rgb64, row: f64, outlook: Outlook) -> f64 {
+        let error = (row + outlook.escaped + outlook.hidden - 1.0).abs();
+        self.closure_sum += error;
+        self.closure_worst = self.closure_worst.max(error);
+        self.rows += 1;
+        let arriving = row + outlook.escaped;
+        if arriving <= 0.0 {
+            // Nothing receives this flux: the patch is covered all over.
+            self.escaped += flux;
+            return 0.0;
+        }
+        self.escaped += flux * (outlook.escaped / arriving);
+        1.0 / arriving
+    }
+
+    pub fn closure(&self) -> Closure {
+        Closure { mean: self.closure_sum / self.rows.max(1) as f64, worst: self.closure_worst }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_close_and_their_error_is_kept() {
+        let mut ledger = Ledger::new(Rgb64::ONE);
+        let scale = ledger.close_row(Rgb64::ONE, 0.77, Outlook { escaped: 0.2, hidden: 0.0 });
+        assert!((0.77 * scale + ledger.escaped.x - 1.0).abs() < 1e-15);
+        assert!((ledger.closure().worst - 0.03).abs() < 1e-15);
+        ledger.close_row(Rgb64::ONE, 0.6, Outlook { escaped: 0.0, hidden: 0.4 });
+        assert!((ledger.closure().mean - 0.015).abs() < 1e-15, "what is hidden is no error");
+    }
+
+    #[test]
+    fn flux_that_nothing_receives_escapes() {
+        let mut ledger = Ledger::new(Rgb64::ONE);
+        assert_eq!(ledger.close_row(Rgb64::ONE, 0.0, Outlook { escaped: 0.0, hidden: 1.0 }), 0.0);
+        assert_eq!(ledger.escaped, Rgb64::ONE);
+    }
+}
