@@ -1,15 +1,13 @@
 //! What the doctor found in the scene and what it did about it.
 
 use super::icons::Icon;
-use super::widgets::{heading, primary_button};
-use crate::app::action::Action;
+use super::widgets::heading;
 use crate::app::model::{Model, SceneFacts};
 use crate::app::theme::{Palette, UNIT};
 use crate::scene::{Finding, Severity};
-use crate::worker::Command;
 use egui::{RichText, Ui};
 
-pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
+pub fn show(ui: &mut Ui, model: &Model) {
     let Some(scene) = model.scene else {
         heading(ui, "Findings");
         ui.label(RichText::new("No scene is open").weak());
@@ -18,9 +16,6 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     match scene.findings.len() {
         0 => heading(ui, "Findings"),
         n => heading(ui, &format!("Findings ({n})")),
-    }
-    if scene.is_dark() {
-        offer_light(ui, actions);
     }
     if scene.findings.is_empty() {
         ui.label(RichText::new("Nothing had to be mended").weak());
@@ -34,16 +29,6 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
 fn sorted<'a>(scene: &SceneFacts<'a>) -> impl Iterator<Item = &'a Finding> {
     let of = |severity| scene.findings.iter().filter(move |finding| finding.severity == severity);
     of(Severity::Warning).chain(of(Severity::Note))
-}
-
-/// A scene without emitters stays dark; a light is offered, not forced on it.
-fn offer_light(ui: &mut Ui, actions: &mut Vec<Action>) {
-    ui.label("Nothing in this scene emits light, so there is nothing to see.");
-    let hover = "Adds a rectangle below the ceiling that is not in the file";
-    if ui.add(primary_button(ui, "Add a ceiling light")).on_hover_text(hover).clicked() {
-        actions.push(Action::Send(Command::AddCeilingLight));
-    }
-    ui.add_space(UNIT);
 }
 
 fn entry(ui: &mut Ui, finding: &Finding) {

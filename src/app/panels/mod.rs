@@ -34,8 +34,9 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>, paint: impl F
         .show(ui, |ui| side_panel(ui, model, actions));
     CentralPanel::no_frame().show(ui, |ui| {
         Panel::top("view bar").frame(bar_frame(ui, 6)).show(ui, |ui| view_bar::show(ui, model, actions));
-        if let Some(message) = banner::message(model) {
-            Panel::top("banner").frame(bar_frame(ui, 8)).show(ui, |ui| banner::show(ui, model, message, actions));
+        for banner in banner::all(model) {
+            let panel = Panel::top(("banner", banner.message)).frame(bar_frame(ui, 8));
+            panel.show(ui, |ui| banner::show(ui, &banner, actions));
         }
         let area = viewport::show(ui, model, actions, paint);
         notices::show(ui, area, model, actions);
@@ -58,7 +59,7 @@ fn side_panel(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
             widgets::section(ui, "Energy", |ui| ledger::show(ui, model));
             widgets::section(ui, "Exposure", |ui| exposure::show(ui, model, actions));
             widgets::section(ui, "Settings", |ui| settings::show(ui, model, actions));
-            findings::show(ui, model, actions);
+            findings::show(ui, model);
         });
     });
 }
