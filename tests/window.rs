@@ -104,6 +104,8 @@ impl Stage {
     }
 }
 
+/// The smallest that the window can be made.
+const SMALLEST: Vec2 = Vec2::new(960.0, 600.0);
 const SMALL: Vec2 = Vec2::new(1280.0, 800.0);
 const LARGE: Vec2 = Vec2::new(1920.0, 1080.0);
 
@@ -204,6 +206,77 @@ fn keys_belong_to_a_field_while_it_is_edited() {
     }
     harness.run();
     assert_eq!(harness.state().actions, []);
+}
+
+#[test]
+fn what_is_typed_with_the_enter_that_ends_it_stays_in_the_field() {
+    let purpose = PathPurpose::OpenScene;
+    let mut harness = Stage { dialog: Some(Dialog::Path { purpose, text: "a".into() }), ..Stage::default() }.small();
+    let key =
+        |key| egui::Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers: Modifiers::NONE };
+    let typed = [key(Key::O), egui::Event::Text("o".into()), key(Key::Enter)];
+    harness.input_mut().events.extend(typed);
+    harness.step();
+    let dialog = Dialog::Path { purpose, text: "ao".into() };
+    let opened = [Action::ShowDialog(dialog), Action::CloseDialog, Action::Open("ao".into())];
+    assert_eq!(harness.state().actions, opened);
+}
+
+#[test]
+fn files_are_dropped_on_the_viewport() {
+    #[derive(Debug)]
+    struct Dropped;
+    impl egui::DroppedFile for Dropped {
+        fn path(&self) -> &std::path::Path {
+            std::path::Path::new("/scenes/attic.obj")
+        }
+        fn bytes(&self) -> Result<Vec<u8>, String> {
+            Err("only its path is asked for".into())
+        }
+    }
+    let mut harness = Stage::default().small();
+    harness.input_mut().hovered_files.push(egui::HoveredFile::default());
+    harness.run();
+    harness.get_by_label("Drop to open");
+    harness.input_mut().hovered_files.clear();
+    harness.input_mut().dropped_files.push(std::sync::Arc::new(Dropped));
+    harness.run();
+    assert_eq!(harness.state().actions, [Action::Open("/scenes/attic.obj".to_owned())]);
+    assert!(harness.query_by_label("Drop to open").is_none());
+}
+
+#[test]
+fn the_mouse_moves_the_camera() {
+    let mut harness = Stage::default().small();
+    let center = harness.get_by_label("Viewport").rect().center();
+    harness.drag_at(center);
+    harness.hover_at(center + Vec2::new(60.0, 0.0));
+    harness.run();
+    assert!(matches!(harness.state().actions[..], [Action::Camera(CameraMove::Orbit(drag))] if drag.x > 0.0));
+    harness.drop_at(center);
+    harness.run();
+    harness.state_mut().actions.clear();
+    harness.event(egui::Event::MouseWheel {
+        unit: egui::MouseWheelUnit::Line,
+        delta: Vec2::new(0.0, 1.0),
+        phase: egui::TouchPhase::Move,
+        source: egui::MouseWheelSource::default(),
+        modifiers: Modifiers::NONE,
+    });
+    harness.run();
+    let zooms = |action: &Action| matches!(action, Action::Camera(CameraMove::Zoom(factor)) if *factor < 1.0);
+    assert!(!harness.state().actions.is_empty() && harness.state().actions.iter().all(zooms));
+}
+
+#[test]
+fn a_scene_that_is_read_is_named() {
+    let phase = Phase::Loading("attic.obj".to_owned());
+    let mut harness = Harness::builder()
+        .with_size(SMALL)
+        .with_context_setup(theme::install)
+        .build_ui_state(|ui, stage: &mut Stage| stage.show(ui), Stage { phase, ..Stage::empty() });
+    harness.step();
+    harness.get_by_label("Opening attic.obj");
 }
 
 #[test]
@@ -347,7 +420,7 @@ fn nothing_is_asked_for_while_nobody_does_anything() {
 }
 
 /// The widest figures that can come up: watts of a large scene, many rays, a long run.
-fn crowded(theme: Theme) -> Stage {
+fn crowded() -> Stage {
     let mut solution = solution();
     solution.steps = 1_234_567;
     solution.elapsed = Duration::from_secs(7_500);
@@ -356,26 +429,41 @@ fn crowded(theme: Theme) -> Stage {
     let error = Some("cannot read a scene with a long name in a folder with an even longer name: no such file".into());
     let notices =
         vec![Notice { id: 0, text: "Saved lightwell-cornell-box-1.png".into(), is_error: false, until: None }];
-    Stage { solution: Some(solution), findings, error, notices, theme, ..Stage::default() }
+    Stage { solution: Some(solution), findings, error, notices, ..Stage::default() }
+}
+
+/// Every text on show and where it is, without the part of the side panel that has to be scrolled to.
+fn texts(harness: &Harness<Stage>, size: Vec2) -> Vec<(String, Rect)> {
+    let nodes = harness.root().children_recursive();
+    let text = |node: egui_kittest::Node| {
+        let accesskit_node = node.accesskit_node();
+        let bounds = accesskit_node.bounding_box()?;
+        let min = egui::pos2(bounds.x0 as f32, bounds.y0 as f32);
+        let rect = Rect::from_min_max(min, egui::pos2(bounds.x1 as f32, bounds.y1 as f32));
+        let is_scrolled_away = min.x > size.x - 320.0 && rect.bottom() > size.y - 40.0 && min.y < size.y - 30.0;
+        let is_beyond = min.x > size.x - 320.0 && min.y > size.y;
+        let is_label = accesskit_node.role() == egui::accesskit::Role::Label;
+        let text = accesskit_node.value().filter(|text| is_label && !text.is_empty());
+        text.filter(|_| !is_scrolled_away && !is_beyond).map(|text| (text, rect))
+    };
+    nodes.filter_map(text).collect()
 }
 
 #[test]
-fn nothing_is_cut_off_at_the_edges_of_the_window() {
-    for (size, theme) in [(SMALL, Theme::Dark), (LARGE, Theme::Dark), (SMALL, Theme::Light)] {
-        for stage in [crowded(theme), Stage { theme, ..Stage::empty() }] {
+fn texts_lie_inside_the_window_and_apart_from_each_other() {
+    for size in [SMALLEST, SMALL, LARGE] {
+        for stage in [crowded(), Stage::default(), Stage::empty()] {
             let harness = stage.window(size);
             let screen = Rect::from_min_size(egui::Pos2::ZERO, size);
-            for node in harness.root().children_recursive() {
-                let label = node.accesskit_node().label().unwrap_or_default();
-                let Some(bounds) = node.accesskit_node().bounding_box() else { continue };
-                let rect = Rect::from_min_max(
-                    egui::pos2(bounds.x0 as f32, bounds.y0 as f32),
-                    egui::pos2(bounds.x1 as f32, bounds.y1 as f32),
-                );
-                let is_in_scroll_area = rect.left() > size.x - 320.0 && rect.top() > 80.0;
-                let is_inside = rect.left() >= screen.left() && rect.right() <= screen.right();
-                let is_above_bottom = rect.bottom() <= screen.bottom() || is_in_scroll_area;
-                assert!(label.is_empty() || (is_inside && is_above_bottom), "`{label}` lies at {rect:?} of {size}");
+            let texts = texts(&harness, size);
+            assert!(texts.len() > 10, "only {} texts were found", texts.len());
+            for (i, (text, rect)) in texts.iter().enumerate() {
+                assert!(screen.contains_rect(*rect), "`{text}` lies at {rect:?} of {size}");
+                for (other, other_rect) in &texts[..i] {
+                    let shared = rect.intersect(*other_rect);
+                    let overlaps = shared.width() > 1.0 && shared.height() > 1.0;
+                    assert!(!overlaps, "`{text}` at {rect:?} covers `{other}` at {other_rect:?} in {size}");
+                }
             }
         }
     }

@@ -101,14 +101,35 @@ fn camera(model: &Model, movement: CameraMove) -> Option<Action> {
     model.scene.is_some().then_some(Action::Camera(movement))
 }
 
-/// Takes the keys that were pressed in this frame. Call it after the panels, so that a field being edited has spoken first.
-///
-/// While text is edited, every key belongs to it. While another control has the focus, Space and the arrows belong to it.
-pub fn read(ctx: &egui::Context, model: &Model, actions: &mut Vec<Action>) {
-    if ctx.text_edit_focused() {
+/// What has the keyboard.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Focus {
+    /// Nothing: every key is the window's.
+    Window,
+    /// A control that Space and the arrows work on.
+    Control,
+    /// Text that is being edited: every key belongs to it.
+    Text,
+}
+
+impl Focus {
+    pub fn of(ctx: &egui::Context) -> Self {
+        match ctx.egui_wants_keyboard_input() {
+            _ if ctx.text_edit_focused() => Self::Text,
+            true => Self::Control,
+            false => Self::Window,
+        }
+    }
+}
+
+/// Takes the keys that were pressed in this frame. `before` is the focus that the frame began with: a field that is left
+/// by Enter owns what was typed in the same frame. While a dialog is open, no key reaches the window behind it.
+pub fn read(ctx: &egui::Context, before: Focus, model: &Model, actions: &mut Vec<Action>) {
+    let focus = [before, Focus::of(ctx)];
+    if focus.contains(&Focus::Text) || model.dialog.is_some() {
         return;
     }
-    let control_has_focus = ctx.egui_wants_keyboard_input();
+    let control_has_focus = focus.contains(&Focus::Control);
     // The table has plain keys first, but a key with modifiers must be tried before the same key without.
     for needs_modifiers in [true, false] {
         for binding in BINDINGS.iter().filter(|b| b.shortcut.modifiers.any() == needs_modifiers) {

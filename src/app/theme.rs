@@ -46,12 +46,12 @@ const DARK: Palette = Palette {
 };
 
 const LIGHT: Palette = Palette {
-    accent: Color32::from_rgb(0x9a, 0x5b, 0x00),
+    accent: Color32::from_rgb(0xb2, 0x5f, 0x00),
     on_accent: Color32::from_rgb(0xff, 0xff, 0xff),
     absorbed: Color32::from_rgb(0x2f, 0x66, 0xb8),
     unshot: Color32::from_rgb(0xe0, 0x96, 0x1e),
     escaped: Color32::from_rgb(0x8a, 0x90, 0x9a),
-    warning: Color32::from_rgb(0x9a, 0x5b, 0x00),
+    warning: Color32::from_rgb(0xb2, 0x5f, 0x00),
     error: Color32::from_rgb(0xb3, 0x26, 0x1e),
     notice: Color32::from_rgb(0xff, 0xff, 0xff),
 };

@@ -6,7 +6,7 @@ use crate::app::action::Action;
 use crate::app::model::Model;
 use crate::app::theme::{Palette, UNIT};
 use crate::worker::{Command, Phase};
-use egui::{Align, Layout, RichText, Ui};
+use egui::{Align, Button, Layout, RichText, Ui};
 
 /// One message and what can be done about it.
 pub struct Banner<'a> {
@@ -48,7 +48,12 @@ pub fn show(ui: &mut Ui, banner: &Banner, actions: &mut Vec<Action>) {
     ui.horizontal(|ui| {
         Icon::Warning.show(ui, color);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            if ui.add(primary_button(ui, banner.remedy)).on_hover_text(banner.remedy_hover).clicked() {
+            let button = if banner.action == Action::DismissError {
+                Button::new(banner.remedy)
+            } else {
+                primary_button(ui, banner.remedy)
+            };
+            if ui.add(button).on_hover_text(banner.remedy_hover).clicked() {
                 actions.push(banner.action.clone());
             }
             ui.add_space(UNIT);

@@ -5,7 +5,7 @@ use crate::app::action::Action;
 use crate::app::keys::BINDINGS;
 use crate::app::model::{Dialog, Model, PathPurpose, PictureFormat, PictureRequest};
 use crate::app::theme::UNIT;
-use egui::{Align, Button, DragValue, Grid, Id, Key, Layout, Modal, RichText, TextEdit, Ui};
+use egui::{Align, Button, DragValue, Frame, Grid, Id, Key, Layout, Modal, RichText, TextEdit, Ui};
 use std::path::PathBuf;
 
 /// Largest side of a picture, in pixels: what every graphics adapter can draw.
@@ -13,7 +13,7 @@ const MAX_SIDE: u32 = 8192;
 
 pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     let Some(dialog) = model.dialog else { return };
-    let modal = Modal::new(Id::unique("dialog")).show(ui.ctx(), |ui| {
+    let modal = Modal::new(Id::unique("dialog")).frame(Frame::window(ui.style())).show(ui.ctx(), |ui| {
         ui.set_width(100.0 * UNIT);
         match dialog {
             Dialog::Picture(request) => picture(ui, model, *request, actions),
@@ -140,6 +140,7 @@ fn keys(ui: &mut Ui, actions: &mut Vec<Action>) {
 }
 
 fn table(ui: &mut Ui, id: &str, rows: impl IntoIterator<Item = (String, &'static str)>) {
+    ui.spacing_mut().interact_size.y = 4.0 * UNIT;
     Grid::new(id).num_columns(2).spacing([6.0 * UNIT, UNIT]).show(ui, |ui| {
         for (left, right) in rows {
             ui.label(RichText::new(left).strong());

@@ -9,6 +9,8 @@ pub enum Icon {
     Pause,
     Warning,
     Note,
+    /// A tick.
+    Chosen,
 }
 
 impl Icon {
@@ -31,6 +33,11 @@ impl Icon {
                 let corners = vec![rect.center_top(), rect.right_bottom(), rect.left_bottom()];
                 painter.add(Shape::closed_line(corners, Stroke::new(1.5, color)));
                 letter(painter, rect.translate(vec2(0.0, 2.0)), "!", color);
+            }
+            Self::Chosen => {
+                let at = |x: f32, y: f32| rect.lerp_inside(vec2(x, y));
+                let tick = vec![at(0.1, 0.55), at(0.4, 0.85), at(0.95, 0.15)];
+                painter.add(Shape::line(tick, Stroke::new(1.5, color)));
             }
             Self::Note => {
                 painter.circle_stroke(rect.center(), 0.5 * rect.width(), Stroke::new(1.5, color));

@@ -1,11 +1,13 @@
 //! The menus: the same wishes as the buttons and keys, where people look for them first.
 
+use super::icons::Icon;
 use crate::app::action::{Action, CameraMove};
 use crate::app::keys;
 use crate::app::model::{Dialog, Look, Model, PictureFormat, PictureRequest, Theme};
 use crate::scene::BUILTINS;
 use crate::viewport::View;
-use egui::{Button, KeyboardShortcut, MenuBar, Ui};
+use egui::accesskit::Role;
+use egui::{Atom, Button, IdSalt, KeyboardShortcut, MenuBar, Response, Ui, WidgetInfo, vec2};
 
 pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     MenuBar::new().ui(ui, |ui| {
@@ -17,7 +19,7 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
 
 fn file_menu(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     item(ui, "Open…", Some(&keys::OPEN), || actions.push(Action::BrowseForScene));
-    ui.menu_button("Built-in scenes", |ui| {
+    submenu(ui, "Built-in scenes", |ui| {
         for builtin in BUILTINS {
             if ui.button(builtin.name).on_hover_text(builtin.description).clicked() {
                 actions.push(Action::Open(builtin.name.to_owned()));
@@ -25,7 +27,7 @@ fn file_menu(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
         }
     });
     ui.add_enabled_ui(!model.recent.is_empty(), |ui| {
-        ui.menu_button("Recent files", |ui| {
+        submenu(ui, "Recent files", |ui| {
             for path in model.recent {
                 let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
                 if ui.button(name).on_hover_text(path.display().to_string()).clicked() {
@@ -77,17 +79,38 @@ fn help_menu(ui: &mut Ui, actions: &mut Vec<Action>) {
 
 /// An entry that does something.
 fn item(ui: &mut Ui, name: &str, shortcut: Option<&KeyboardShortcut>, chosen: impl FnOnce()) {
-    choice(ui, name, false, shortcut, chosen);
-}
-
-/// An entry that shows whether it is in force.
-fn choice(ui: &mut Ui, name: &str, is_on: bool, shortcut: Option<&KeyboardShortcut>, chosen: impl FnOnce()) {
-    let mut button = Button::new(name).selected(is_on);
-    if let Some(shortcut) = shortcut {
-        button = button.shortcut_text(ui.ctx().format_shortcut(shortcut));
-    }
-    if ui.add(button).clicked() {
+    if entry(ui, name, false, shortcut).clicked() {
         chosen();
         ui.close();
     }
+}
+
+/// An entry with a tick before it while it is in force.
+fn choice(ui: &mut Ui, name: &str, is_on: bool, shortcut: Option<&KeyboardShortcut>, chosen: impl FnOnce()) {
+    let response = entry(ui, name, is_on, shortcut);
+    response.widget_info(|| WidgetInfo::selected(Role::MenuItemCheckBox, response.enabled(), is_on, name));
+    if response.clicked() {
+        chosen();
+        ui.close();
+    }
+}
+
+fn entry(ui: &mut Ui, name: &str, is_ticked: bool, shortcut: Option<&KeyboardShortcut>) -> Response {
+    let tick = IdSalt::new("tick");
+    let mut button = Button::new((Atom::custom(tick, vec2(Icon::SIZE, Icon::SIZE)), name));
+    if let Some(shortcut) = shortcut {
+        button = button.shortcut_text(ui.ctx().format_shortcut(shortcut));
+    }
+    let button = button.atom_ui(ui);
+    if let Some(rect) = button.rect(tick).filter(|_| is_ticked) {
+        Icon::Chosen.paint(ui.painter(), rect, ui.visuals().text_color());
+    }
+    // The label of a button with a shortcut would be both.
+    button.response.accessible_name(name)
+}
+
+/// An entry that opens another menu, in line with those above and below it.
+fn submenu(ui: &mut Ui, name: &str, contents: impl FnOnce(&mut Ui)) {
+    let gutter = Atom::custom(IdSalt::new("tick"), vec2(Icon::SIZE, Icon::SIZE));
+    ui.menu_button((gutter, name), contents);
 }

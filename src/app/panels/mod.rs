@@ -23,6 +23,7 @@ use egui::{CentralPanel, Frame, Margin, Panel, Rect, ScrollArea, Ui};
 
 /// Lays out the whole window. `paint` draws the scene into the viewport's rectangle, below everything else there.
 pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>, paint: impl FnOnce(&Ui, Rect)) {
+    let focus = keys::Focus::of(ui.ctx());
     Panel::top("menu bar").frame(bar_frame(ui, 4)).show(ui, |ui| menu_bar::show(ui, model, actions));
     Panel::top("transport").frame(bar_frame(ui, 8)).show(ui, |ui| transport::show(ui, model, actions));
     Panel::bottom("status line").frame(bar_frame(ui, 6)).show(ui, |ui| status_line::show(ui, model));
@@ -42,7 +43,7 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>, paint: impl F
         notices::show(ui, area, model, actions);
     });
     dialogs::show(ui, model, actions);
-    keys::read(ui.ctx(), model, actions);
+    keys::read(ui.ctx(), focus, model, actions);
 }
 
 /// Wide enough for the widest row of figures.
