@@ -1,8 +1,20 @@
+//! Lightwell: an interactive explorer of global illumination.
+//!
+//! The modules form layers, and a name may be used only from a higher one (`tests/layering.rs` checks it): numbers
+//! ([`math`]), the world ([`scene`], [`mesh`], [`tracer`], [`world`]), what a method hands out ([`solution`]), the
+//! [`methods`], the solver thread ([`worker`]), the picture ([`camera`], [`viewport`]) and the two faces of the program
+//! ([`cli`], and the window).
+
+pub mod camera;
 pub mod cancel;
+pub mod cli;
+pub mod errors;
 pub mod math;
 pub mod mesh;
 pub mod methods;
 pub mod scene;
 pub mod solution;
 pub mod tracer;
+pub mod viewport;
+pub mod worker;
 pub mod world;

@@ -1,1 +1,22 @@
-fn main(){}
+//! The program: a window, or one of the commands that need none.
+
+use clap::Parser;
+use lightwell::cli::Cli;
+use lightwell::errors::with_causes;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    env_logger::init();
+    let cli = Cli::parse();
+    let result = match &cli.command {
+        Some(command) => command.run().map_err(|error| with_causes(&error)),
+        None => Ok(()),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("lightwell: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,8 +1,9 @@
 //! No ray is lost: at shared edges and vertices, very near a surface, at any scale, along the axes, from far away.
 
-mod common;
+#[path = "common/shapes.rs"]
+mod shapes;
 
-use common::shapes::{Triangles, cube, placed, sphere};
+use shapes::{Triangles, cube, placed, sphere};
 use glam::{Vec3, Vec3A};
 use lightwell::math::random::Stream;
 use lightwell::math::warp::{cosine_hemisphere, frame};

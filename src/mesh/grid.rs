@@ -48,10 +48,15 @@ impl Shape {
         }
     }
 
-    /// The longest edge along each direction of the grid.
+    /// The longest edge along each direction of the grid. Of a triangle it is the second longest, so that half a square
+    /// is cut as finely as the square would be.
     fn edge_lengths(&self) -> [f64; 2] {
         match *self {
-            Self::Triangle([a, b, c]) => [(b - a).length().max((c - b).length()).max((a - c).length()); 2],
+            Self::Triangle([a, b, c]) => {
+                let mut lengths = [(b - a).length(), (c - b).length(), (a - c).length()];
+                lengths.sort_by(f64::total_cmp);
+                [lengths[1]; 2]
+            }
             Self::Quad([a, b, c, d]) => {
                 [(b - a).length().max((c - d).length()), (d - a).length().max((c - b).length())]
             }

@@ -22,7 +22,7 @@ pub struct Mesh {
     /// Corner positions of elements, m. Elements share a vertex where light is smooth across it: same material,
     /// same side, no crease.
     pub vertices: Vec<Vec3>,
-    /// Σ area of the elements round each vertex, m².
+    /// Σ exposed area of the elements round each vertex, m².
     vertex_areas: Vec<f32>,
 }
 
@@ -44,7 +44,7 @@ pub struct Patch {
     /// Unit normal on the side where the patch shines.
     pub normal: Vec3A,
     pub center: Vec3A,
-    /// m²
+    /// Exposed area, m²: that of its elements.
     pub area: f64,
     /// Indices into [`Mesh::elements`].
     pub elements: Range<u32>,
@@ -71,8 +71,10 @@ pub struct Element {
     /// Index into [`Mesh::patches`].
     pub patch: u32,
     pub center: Vec3A,
-    /// m²
+    /// Exposed area, m²: what light can reach. Where a block stands on a floor, the floor below it is no part of it.
     pub area: f64,
+    /// Share of the element that is exposed, in [0, 1].
+    pub exposed: f32,
 }
 
 impl Element {
@@ -88,12 +90,25 @@ impl Mesh {
         (element.corners.map(|corner| self.vertices[corner as usize]), element.corner_count as usize)
     }
 
+    /// States how much of each element is exposed, in [0, 1] and in the order of the elements.
+    pub fn expose(&mut self, shares: &[f32]) {
+        for (element, &share) in self.elements.iter_mut().zip(shares) {
+            element.area *= f64::from(share) / f64::from(element.exposed);
+            element.exposed = share;
+        }
+        for patch in &mut self.patches {
+            let elements = &self.elements[patch.elements.start as usize..patch.elements.end as usize];
+            patch.area = elements.iter().map(|element| element.area).sum();
+        }
+        self.vertex_areas = smooth::vertex_areas(&self.elements, &self.vertices);
+    }
+
     /// The meshed side of a polygon; `None` where light cannot reach it.
     pub fn side(&self, polygon: u32, is_front: bool) -> Option<&Side> {
         self.sides[side_index(polygon, is_front)].as_ref()
     }
 
-    /// Total area of the meshed sides, m².
+    /// Total exposed area, m².
     pub fn area(&self) -> f64 {
         self.patches.iter().map(|patch| patch.area).sum()
     }
@@ -107,7 +122,7 @@ pub fn side_index(polygon: u32, is_front: bool) -> usize {
 /// How finely surfaces are cut.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct MeshSettings {
-    /// Longest edge of an element, m. `None`: the size at which the mesh has about [`MeshSettings::DEFAULT_ELEMENTS`].
+    /// Longest edge of an element (of a triangle, the second longest), m. `None`: the size at which the mesh has about [`MeshSettings::DEFAULT_ELEMENTS`].
     pub element_size: Option<f32>,
 }
 

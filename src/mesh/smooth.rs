@@ -5,8 +5,8 @@ use crate::math::rgb::Rgb;
 use glam::Vec3;
 
 impl Mesh {
-    /// Area-weighted mean of the elements round each vertex. Vertices are shared only where light is smooth, so nothing
-    /// is averaged across a crease or between materials. `values` has one entry an element; `vertex_values` is
+    /// Mean of the elements round each vertex, by exposed area. Vertices are shared only where light is smooth, so nothing
+    /// is averaged across a crease or between materials; what is covered does not count. `values` has one entry an element; `vertex_values` is
     /// overwritten with one a vertex.
     pub fn smooth(&self, values: &[Rgb], vertex_values: &mut Vec<Rgb>) {
         vertex_values.clear();
@@ -18,12 +18,14 @@ impl Mesh {
             }
         }
         for (value, area) in vertex_values.iter_mut().zip(&self.vertex_areas) {
-            *value /= *area;
+            if *area > 0.0 {
+                *value /= *area;
+            }
         }
     }
 }
 
-/// Σ area of the elements round each of `vertices`, m².
+/// Σ exposed area of the elements round each of `vertices`, m².
 pub(super) fn vertex_areas(elements: &[Element], vertices: &[Vec3]) -> Vec<f32> {
     let mut areas = vec![0.0; vertices.len()];
     for element in elements {

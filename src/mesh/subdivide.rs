@@ -110,6 +110,7 @@ impl Builder {
             patch,
             center: center(corners),
             area: vector_area(corners).length(),
+            exposed: 1.0,
         }
     }
 }

@@ -22,6 +22,9 @@ pub trait Method: Send {
     /// Does one bounded piece of work, all of it or nothing.
     fn step(&mut self, cancel: &Cancel) -> Step;
 
+    /// Takes new settings over and goes on; false, and nothing changes, if they need a fresh start.
+    fn configure(&mut self, settings: &Settings) -> bool;
+
     /// Copies out what is known so far. Its `elapsed` is zero: whoever steps the method holds the clock.
     fn solution(&self) -> Solution;
 }

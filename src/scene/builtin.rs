@@ -43,6 +43,30 @@ pub const BUILTINS: &[Builtin] = &[
         obj: include_str!("../../assets/scenes/furnace.obj"),
         mtl: include_str!("../../assets/scenes/furnace.mtl"),
     },
+    Builtin {
+        name: "two-rooms",
+        description: "two rooms with one lamp: the far room is lit only through a doorway",
+        viewpoint: Some(Viewpoint {
+            eye: Vec3::new(7.3, 1.6, 3.8),
+            target: Vec3::new(6.0, 0.9, 0.5),
+            up: Vec3::Y,
+            vertical_fov: 62.0,
+        }),
+        obj: include_str!("../../assets/scenes/two-rooms.obj"),
+        mtl: include_str!("../../assets/scenes/two-rooms.mtl"),
+    },
+    Builtin {
+        name: "gallery",
+        description: "a vaulted gallery with columns, lanterns and a red carpet, and daylight from one side",
+        viewpoint: Some(Viewpoint {
+            eye: Vec3::new(0.8, 1.6, -1.0),
+            target: Vec3::new(-0.4, 2.7, -14.0),
+            up: Vec3::Y,
+            vertical_fov: 58.0,
+        }),
+        obj: include_str!("../../assets/scenes/gallery.obj"),
+        mtl: include_str!("../../assets/scenes/gallery.mtl"),
+    },
 ];
 
 /// The measured camera: 35 mm focal length and a film of 25 mm, so a vertical angle of 2 atan(12.5 / 35).

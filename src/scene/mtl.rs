@@ -53,12 +53,14 @@ impl Library {
     fn begin(&mut self, name: &str, file: &str, line: u32) -> usize {
         let place = self.entries.len();
         self.entries.push(Entry::new(name));
-        if self.index.insert(name.to_owned(), place).is_some() {
-            let subject = format!("{file}, line {line}");
-            let problem = format!("material '{name}' is stated twice");
-            let remedy = "the later one is used";
-            self.findings.push(Finding::warning(FindingKind::MalformedLine, subject, problem, remedy));
-        }
+        let is_repeated = self.index.insert(name.to_owned(), place).is_some();
+        let (problem, remedy) = match (name, is_repeated) {
+            ("", _) => ("`newmtl` states no name".to_owned(), "no face can use this material"),
+            (_, true) => (format!("material '{name}' is stated twice"), "the later one is used"),
+            (_, false) => return place,
+        };
+        let subject = format!("{file}, line {line}");
+        self.findings.push(Finding::warning(FindingKind::MalformedLine, subject, problem, remedy));
         place
     }
 }
@@ -91,7 +93,7 @@ impl Entry {
                 // The specification's own range.
                 self.material.refraction_index = self.mend(value, 0.001, 10.0, line, "Ni");
             }),
-            "d" => number(rest.trim_start_matches("-halo")).map(|value| {
+            "d" => number(rest.strip_prefix("-halo").unwrap_or(rest)).map(|value| {
                 self.material.opacity = self.mend(value, 0.0, 1.0, line, "d");
                 self.states_opacity = true;
             }),

@@ -239,7 +239,8 @@ impl Assembler {
     }
 
     fn finish(self, name: &str, source: Source) -> Scene {
-        let Self { library, mut findings, positions, polygons, materials, objects, .. } = self;
+        let Self { library, mut findings, mut positions, mut polygons, materials, objects, .. } = self;
+        drop_unused_positions(&mut positions, &mut polygons);
         let mut entries: Vec<_> = library.entries.into_iter().map(Some).collect();
         let mut take = |place: usize| entries[place].take().map(|entry| entry.into_material_and_findings());
         let materials = materials
@@ -263,5 +264,26 @@ impl Assembler {
             ));
         }
         scene
+    }
+}
+
+/// Faces that were left out may leave positions behind, far from everything that is seen.
+fn drop_unused_positions(positions: &mut Vec<Vec3>, polygons: &mut [Polygon]) {
+    let mut is_used = vec![false; positions.len()];
+    for &corner in polygons.iter().flat_map(|polygon| polygon.corners()) {
+        is_used[corner as usize] = true;
+    }
+    let mut used_before = 0;
+    let new_index: Vec<u32> = is_used
+        .iter()
+        .map(|&is_used| {
+            used_before += u32::from(is_used);
+            used_before.saturating_sub(1)
+        })
+        .collect();
+    let mut is_used = is_used.into_iter();
+    positions.retain(|_| is_used.next() == Some(true));
+    for polygon in polygons {
+        polygon.corners = polygon.corners.map(|corner| new_index[corner as usize]);
     }
 }

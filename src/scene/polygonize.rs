@@ -120,8 +120,9 @@ impl Face {
 
     fn cut_quad(&self) -> Vec<[usize; 3]> {
         let cuts = [[[0, 1, 2], [0, 2, 3]], [[1, 2, 3], [1, 3, 0]]];
-        let smallest = |cut: [[usize; 3]; 2]| self.signed_area(cut[0]).min(self.signed_area(cut[1]));
-        let best = if smallest(cuts[0]) >= smallest(cuts[1]) { cuts[0] } else { cuts[1] };
+        let [first, second] = cuts.map(|[a, b]| self.signed_area(a).min(self.signed_area(b)));
+        // Where both diagonals are as good, rounding must not decide: a scaled copy of the quad is cut alike.
+        let best = if second > first + 1e-6 * self.area { cuts[1] } else { cuts[0] };
         best.to_vec()
     }
 

@@ -1,14 +1,23 @@
 //! The solver thread: it owns the methods, takes commands and publishes what they know.
+//!
+//! Commands go into a mailbox, where the newest wins; snapshots come out of a slot that holds the latest. Neither side
+//! ever waits for the other.
 
 mod command;
-mod slot;
+mod mailbox;
+mod run;
+mod solver;
 
 pub use command::Command;
+pub use run::Run;
 
-use crate::methods::Settings;
+use crate::methods::{Method, Settings};
 use crate::solution::Solution;
 use crate::world::World;
-use std::sync::Arc;
+use mailbox::Mailbox;
+use solver::Solver;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread::JoinHandle;
 
 /// Everything that the thread publishes. Each part is immutable and shared.
 #[derive(Clone, Default)]
@@ -36,4 +45,69 @@ pub enum Phase {
     Converged,
     /// The solver panicked; `Command::Reset` starts it afresh.
     Crashed,
+}
+
+/// How a run of a method begins.
+pub type StartMethod = dyn Fn(Arc<World>, &Settings) -> Box<dyn Method> + Send;
+
+/// A handle on the solver thread. Dropping it ends the thread.
+pub struct Worker {
+    mailbox: Arc<Mailbox>,
+    slot: Arc<Slot>,
+    thread: Option<JoinHandle<()>>,
+}
+
+/// The latest snapshot, and whom to tell of a new one.
+struct Slot {
+    latest: Mutex<Arc<Snapshot>>,
+    wake: Box<dyn Fn() + Send + Sync>,
+}
+
+impl Slot {
+    fn publish(&self, snapshot: Snapshot) {
+        // The old snapshot is dropped after the lock is free again: freeing a large solution takes a while.
+        let old = std::mem::replace(&mut *self.lock(), Arc::new(snapshot));
+        drop(old);
+        (self.wake)();
+    }
+
+    fn lock(&self) -> std::sync::MutexGuard<'_, Arc<Snapshot>> {
+        self.latest.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Worker {
+    /// Starts the thread. `wake` is called from it after every new snapshot.
+    pub fn spawn(wake: impl Fn() + Send + Sync + 'static) -> Self {
+        Self::spawn_with(Box::new(run::start_method), wake)
+    }
+
+    /// The same with methods from elsewhere.
+    pub fn spawn_with(start_method: Box<StartMethod>, wake: impl Fn() + Send + Sync + 'static) -> Self {
+        let mailbox = Arc::new(Mailbox::default());
+        let slot = Arc::new(Slot { latest: Mutex::default(), wake: Box::new(wake) });
+        let solver = Solver::new(mailbox.clone(), slot.clone(), start_method);
+        let thread = std::thread::Builder::new().name("solver".to_owned()).spawn(move || solver.serve());
+        Self { mailbox, slot, thread: Some(thread.expect("the system can start a thread")) }
+    }
+
+    /// Hands a command over. It takes effect within a few milliseconds, in the middle of a step if need be.
+    pub fn send(&self, command: Command) {
+        self.mailbox.post(command);
+    }
+
+    /// The newest snapshot. Never waits for the solver.
+    pub fn latest(&self) -> Arc<Snapshot> {
+        self.slot.lock().clone()
+    }
+}
+
+impl Drop for Worker {
+    fn drop(&mut self) {
+        self.mailbox.close();
+        if let Some(thread) = self.thread.take() {
+            // The solver catches panics of methods; one of its own has been printed already.
+            let _ = thread.join();
+        }
+    }
 }

@@ -1,7 +1,9 @@
 //! Emitters that shine the wrong way, lie in a wall, or light nothing.
 
+use super::TOUCHING;
 use super::sides::emitting_sides;
 use super::surface::Surfaces;
+use crate::math::bounds::Bounds;
 use crate::math::random::Stream;
 use crate::mesh::side_index;
 use crate::scene::{Finding, FindingKind, Polygon, Scene, Severity};
@@ -14,8 +16,8 @@ const LOOKS: u64 = 64;
 const BLIND_SHARE: f32 = 1.0 / 16.0;
 /// What is nearer than this times the square root of the emitter's area stands right before it.
 const NEAR: f32 = 0.25;
-/// Emitters in the plane of another surface are moved by this share of the scene's radius.
-const STEP: f32 = 1e-4;
+/// Emitters in the plane of another surface are moved by this share of the scene's radius: still touching it.
+const STEP: f32 = TOUCHING / 4.0;
 /// Surfaces closer than this share of the scene's radius lie in one plane.
 const SAME_PLANE: f32 = 1e-6;
 const LOOK_PASS: u64 = 4;
@@ -62,7 +64,7 @@ fn open_view(scene: &Scene, surfaces: &Surfaces, tracer: &Tracer, side: usize) -
 /// coincide there is no telling which one a ray meets, and both would receive the same light.
 pub fn move_off_walls(scene: &mut Scene) -> Vec<Finding> {
     let surfaces = Surfaces::new(scene);
-    let radius = crate::math::bounds::Bounds::of(surfaces.corners()).radius();
+    let radius = Bounds::of(surfaces.corners()).radius();
     let mut findings = Vec::new();
     for front in emitting_sides(scene) {
         let polygon = front / 2;

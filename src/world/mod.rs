@@ -1,9 +1,12 @@
 //! The world: a scene made ready for light. It is built once and never changes.
 
 mod emitters;
+mod exposure;
 mod sides;
 mod surface;
 mod viewpoint;
+
+pub use exposure::is_covered;
 
 use crate::cancel::{Cancel, Cancelled};
 use crate::math::bounds::Bounds;
@@ -13,6 +16,9 @@ use crate::tracer::Tracer;
 use sides::Reach;
 use std::sync::Arc;
 use surface::Surfaces;
+
+/// Surfaces that are nearer to each other than this share of the scene's radius touch: no light gets between them.
+const TOUCHING: f32 = 4e-4;
 
 /// A scene, its mesh and its tracer.
 pub struct World {
@@ -39,7 +45,7 @@ pub enum WorldError {
     Cancelled,
     #[error("an element size of {0} m cannot be used: it must be a number above 0")]
     ElementSize(f32),
-    #[error("elements of {size} m would be {elements:.1e} in number; at most {:.0e} fit", MeshSettings::MAX_ELEMENTS)]
+    #[error("elements of {size:.1e} m would be {elements:.1e} in number; at most {:.0e} fit", MeshSettings::MAX_ELEMENTS)]
     TooFine { size: f64, elements: f64 },
 }
 
@@ -70,7 +76,7 @@ impl World {
         scene.findings.extend::<Vec<Finding>>(findings);
         let viewpoint =
             scene.viewpoint.unwrap_or_else(|| viewpoint::choose(&bounds, &surfaces, &tracer, &is_reached, &rooms));
-        let (mesh, element_size) = mesh(&scene, &surfaces, &is_reached, settings)?;
+        let (mesh, element_size) = mesh(&scene, &surfaces, &tracer, &is_reached, settings)?;
         Ok(Self {
             scene: Arc::new(scene),
             tracer: Arc::new(tracer),
@@ -88,7 +94,7 @@ impl World {
     /// # Errors
     /// If the element size is not a positive number or too fine for memory.
     pub fn remeshed(&self, settings: &MeshSettings) -> Result<Self, WorldError> {
-        let (mesh, element_size) = mesh(&self.scene, &Surfaces::new(&self.scene), &self.is_reached, settings)?;
+        let (mesh, element_size) = mesh(&self.scene, &Surfaces::new(&self.scene), &self.tracer, &self.is_reached, settings)?;
         Ok(Self {
             scene: self.scene.clone(),
             tracer: self.tracer.clone(),
@@ -106,6 +112,7 @@ impl World {
 fn mesh(
     scene: &Scene,
     surfaces: &Surfaces,
+    tracer: &Tracer,
     is_reached: &[bool],
     settings: &MeshSettings,
 ) -> Result<(Mesh, f32), WorldError> {
@@ -121,7 +128,10 @@ fn mesh(
     if elements > MeshSettings::MAX_ELEMENTS {
         return Err(WorldError::TooFine { size, elements });
     }
-    Ok((subdivide(scene, is_reached, size), size as f32))
+    let mut mesh = subdivide(scene, is_reached, size);
+    let shares = exposure::shares(&mesh, tracer);
+    mesh.expose(&shares);
+    Ok((mesh, size as f32))
 }
 
 /// Every polygon as one or two triangles, each with the polygon's index.

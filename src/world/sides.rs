@@ -6,8 +6,10 @@
 //! from an emitter by a free line of sight: no chain of guesses, every step is a ray, so nothing that is shut off is
 //! ever taken for reached. Both kinds of walk together find what is small or hard to get into.
 
+use super::TOUCHING;
 use super::surface::{Place, Surfaces};
 use crate::cancel::{Cancel, Cancelled};
+use crate::math::bounds::Bounds;
 use crate::math::random::Stream;
 use crate::math::warp::frame;
 use crate::mesh::side_index;
@@ -74,11 +76,13 @@ pub fn explore(
     for (&shell, found) in dark.iter().zip(found) {
         is_shell_reached[shell] = found;
     }
+    let near = TOUCHING * Bounds::of(surfaces.corners()).radius();
     let mut is_reached: Vec<bool> = (0..2 * surfaces.len())
         .into_par_iter()
         .map(|side| {
             is_shell_reached[shells.of_side[side]]
                 && !cancel.is_requested()
+                && has_room(side, near, surfaces, tracer)
                 && looks_at_something(side, surfaces, tracer)
         })
         .collect();
@@ -172,6 +176,17 @@ fn looks_at_something(side: usize, surfaces: &Surfaces, tracer: &Tracer) -> bool
     (0..LOOKS).any(|_| {
         let place = surfaces.place(side, tracer, &mut stream);
         surfaces.bounce(&place, tracer, &mut stream).is_some()
+    })
+}
+
+/// Whether some of the side is farther than `near`, m, from whatever is before it: the back of a lamp that is let into
+/// a ceiling is not.
+fn has_room(side: usize, near: f32, surfaces: &Surfaces, tracer: &Tracer) -> bool {
+    let mut stream = Stream::new(1, LOOK_PASS, side as u64);
+    (0..LOOKS).any(|_| {
+        let place = surfaces.place(side, tracer, &mut stream);
+        let ahead = tracer.closest(&Ray { origin: place.point, direction: place.normal });
+        ahead.is_none_or(|hit| hit.distance > near)
     })
 }
 

@@ -105,6 +105,10 @@ fn gather_batch(batch: &Batch, shot: &Shot, form_factors: &mut [f64]) -> Work {
         let normal = patch.normal.as_dvec3();
         for (index, out) in elements.zip(out) {
             let element = &shot.mesh.elements[index];
+            if element.exposed == 0.0 {
+                *out = 0.0;
+                continue;
+            }
             *out = shot.shooter.form_factor(shot.mesh, element, normal);
             work.form_factors += 1;
             if *out > 0.0 {

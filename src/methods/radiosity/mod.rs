@@ -6,7 +6,10 @@ mod escape;
 mod form_factor;
 mod gather;
 mod ledger;
+mod sensor;
 mod visibility;
+
+pub use sensor::irradiance_in_space;
 
 use crate::cancel::Cancel;
 use crate::math::rgb::{Rgb64, total};
@@ -14,13 +17,13 @@ use crate::mesh::{Element, Mesh, Patch};
 use crate::methods::{Method, Settings, Step};
 use crate::solution::{Counters, ElementLight, Energy, Solution};
 use crate::world::World;
-use escape::{ESCAPE_RAYS, Outlook, look_out};
+use escape::{ESCAPE_RAYS, escaping_share};
 use form_factor::Shooter;
 use gather::{Receivers, Shot};
 use ledger::Ledger;
 use std::sync::Arc;
 use std::time::Duration;
-use visibility::{Samples, Sightline};
+use visibility::Sightline;
 
 /// The state of a run. Patches shoot, elements receive.
 pub struct Radiosity {
@@ -102,12 +105,12 @@ impl Radiosity {
     }
 
     /// Hands the shooter's unshot flux to the elements and to the void.
-    fn receive(&mut self, patch: usize, outlook: Outlook) {
+    fn receive(&mut self, patch: usize, escaping: f64) {
         let shot = std::mem::replace(&mut self.unshot[patch], Rgb64::ZERO);
         let Mesh { patches, elements, .. } = &self.world.mesh;
         let area = patches[patch].area;
         let row = self.receivers.row_sum(&self.world.mesh, &self.form_factors) / area;
-        let shot_scaled = shot * self.ledger.close_row(shot * area, row, outlook);
+        let shot_scaled = shot * self.ledger.close_row(shot * area, row, escaping);
         for ((receiver, unshot), reflectance) in patches.iter().zip(&mut self.unshot).zip(&self.reflectance) {
             let range = receiver.elements.start as usize..receiver.elements.end as usize;
             let mut received = Rgb64::ZERO;
@@ -116,7 +119,9 @@ impl Radiosity {
                 self.irradiance[index] += irradiance;
                 received += irradiance * elements[index].area;
             }
-            *unshot += *reflectance * received / receiver.area;
+            if receiver.area > 0.0 {
+                *unshot += *reflectance * received / receiver.area;
+            }
         }
     }
 
@@ -152,13 +157,13 @@ impl Method for Radiosity {
         }
         let Some(patch) = self.brightest() else { return Step::Converged };
         let flux = self.unshot_flux(patch);
-        let samples = Samples::new(self.rays_for(flux));
+        let rays = self.rays_for(flux);
         let world = self.world.clone();
         let shooter = &world.mesh.patches[patch];
         let shot = Shot {
             mesh: &world.mesh,
             shooter: Shooter::new(shooter),
-            sightline: Sightline { mesh: &world.mesh, tracer: &world.tracer, shooter, samples: &samples },
+            sightline: Sightline { mesh: &world.mesh, tracer: &world.tracer, shooter, rays },
             seed: self.settings.seed,
             step: self.steps,
             cancel,
@@ -167,8 +172,8 @@ impl Method for Radiosity {
         if cancel.is_requested() {
             return Step::Cancelled;
         }
-        let outlook = look_out(&world, shooter, self.settings.seed, self.steps);
-        self.receive(patch, outlook);
+        let escaping = escaping_share(&world, shooter, self.settings.seed, self.steps);
+        self.receive(patch, escaping);
         self.largest_shot = self.largest_shot.max(flux);
         self.shooter = Some(patch as u32);
         self.steps += 1;
@@ -177,6 +182,15 @@ impl Method for Radiosity {
         self.counters.escape_rays += u64::from(ESCAPE_RAYS);
         self.counters.rays += work.rays + u64::from(ESCAPE_RAYS);
         Step::Advanced
+    }
+
+    /// The stop rule may change on the way; everything else would have led elsewhere from the first shot.
+    fn configure(&mut self, settings: &Settings) -> bool {
+        let same = Settings { unshot_limit: settings.unshot_limit, ..self.settings } == *settings;
+        if same {
+            self.settings = *settings;
+        }
+        same
     }
 
     fn solution(&self) -> Solution {

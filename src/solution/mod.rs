@@ -1,5 +1,9 @@
 //! What a method hands out: light per element, its ledger of energy, and what it cost.
 
+mod probe;
+
+pub use probe::SurfaceProbe;
+
 use crate::math::rgb::{Rgb, Rgb64, total};
 use std::time::Duration;
 
@@ -8,7 +12,7 @@ use std::time::Duration;
 pub struct Solution {
     /// Steps done so far; for progressive radiosity, shots.
     pub steps: u64,
-    /// Time spent in steps.
+    /// Time spent in steps, filled in by whoever runs the method.
     pub elapsed: Duration,
     /// Whether the stop rule of the settings holds.
     pub converged: bool,

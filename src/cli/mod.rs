@@ -1,0 +1,95 @@
+//! The command line: the same code as the window, without one. One file a command.
+
+mod inspect;
+pub mod picture;
+mod probe;
+mod render;
+mod run_options;
+mod scenes;
+mod solve;
+mod values;
+
+use crate::scene::{Finding, SceneError, Severity};
+use crate::viewport::{AdapterChoice, GpuError};
+use crate::world::WorldError;
+use clap::{Args, Parser, Subcommand};
+use std::path::PathBuf;
+
+/// Watch light spread through a scene, and read off what accuracy costs.
+#[derive(Debug, Parser)]
+#[command(name = "lightwell", version, args_conflicts_with_subcommands = true)]
+pub struct Cli {
+    #[command(subcommand)]
+    pub command: Option<Command>,
+    #[command(flatten)]
+    pub window: WindowOptions,
+}
+
+/// What the window takes.
+#[derive(Args, Clone, Debug)]
+pub struct WindowOptions {
+    /// The scene to open: the path of an OBJ file, or the name of a built-in scene
+    pub scene: Option<String>,
+    /// The graphics adapter: `system` for the best one, `software`, or a part of its name
+    #[arg(long, value_name = "software|NAME", default_value = "system")]
+    pub adapter: AdapterChoice,
+}
+
+/// What can be done without a window.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Solve a scene and write a picture of it
+    Render(render::Options),
+    /// Solve a scene and print where its light went
+    Solve(solve::Options),
+    /// Solve a scene and print the irradiance at points
+    Probe(probe::Options),
+    /// Print what a scene holds and what was wrong with it
+    Inspect(inspect::Options),
+    /// List the built-in scenes
+    Scenes(scenes::Options),
+}
+
+impl Command {
+    /// # Errors
+    /// See [`CliError`].
+    pub fn run(&self) -> Result<(), CliError> {
+        match self {
+            Self::Render(options) => render::run(options),
+            Self::Solve(options) => solve::run(options),
+            Self::Probe(options) => probe::run(options),
+            Self::Inspect(options) => inspect::run(options),
+            Self::Scenes(options) => scenes::run(options),
+        }
+    }
+}
+
+/// Why a command failed. The command line itself was in order.
+#[derive(Debug, thiserror::Error)]
+pub enum CliError {
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    #[error(transparent)]
+    World(#[from] WorldError),
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    #[error("cannot read points from {path}")]
+    ReadPoints { path: PathBuf, source: std::io::Error },
+    #[error("{path}, line {line}: {reason}")]
+    Point { path: PathBuf, line: usize, reason: String },
+    #[error("cannot write {path}")]
+    Write { path: PathBuf, source: std::io::Error },
+    #[error("cannot encode {path}")]
+    Encode { path: PathBuf, source: Box<dyn std::error::Error + Send + Sync> },
+    #[error("{path} is neither .png nor .exr")]
+    PictureFormat { path: PathBuf },
+    #[error("cannot print")]
+    Print(#[from] std::io::Error),
+}
+
+/// Prints what may make a result differ from what the scene's author meant, on standard error.
+fn warn_of(findings: &[Finding]) {
+    for finding in findings.iter().filter(|finding| finding.severity == Severity::Warning) {
+        eprintln!("warning: {}: {}; {}", finding.subject, finding.problem, finding.remedy);
+    }
+}

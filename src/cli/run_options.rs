@@ -1,0 +1,89 @@
+//! What every command that solves takes, and the solving.
+
+use super::values;
+use super::{CliError, warn_of};
+use crate::cancel::Cancel;
+use crate::mesh::MeshSettings;
+use crate::methods::{Settings, Step};
+use crate::scene::Scene;
+use crate::solution::Solution;
+use crate::worker::Run;
+use crate::world::World;
+use clap::Args;
+use std::sync::Arc;
+use std::time::Duration;
+
+/// The scene, how finely it is cut, and when to stop.
+#[derive(Args, Debug)]
+pub struct RunOptions {
+    /// The path of an OBJ file, or the name of a built-in scene
+    scene: String,
+    /// Add a ceiling light where the scene has no emitter of its own
+    #[arg(long)]
+    ceiling_light: bool,
+    /// Longest edge of an element, in the scene's units [default: about 8000 elements in all]
+    #[arg(long, value_name = "SIZE", value_parser = values::positive)]
+    element: Option<f64>,
+    /// Stop after this many shots
+    #[arg(long, value_name = "N", group = "stop")]
+    steps: Option<u64>,
+    /// Stop after this much solver time
+    #[arg(long, value_name = "SECONDS", group = "stop", value_parser = values::positive)]
+    time: Option<f64>,
+    /// Stop when at most this share of the emitted flux is unshot [default: 0.1]
+    #[arg(long, value_name = "PERCENT", group = "stop", value_parser = values::percent)]
+    converge: Option<f64>,
+    /// Visibility rays from a receiver to the brightest shooter
+    #[arg(long, value_name = "N", default_value_t = Settings::default().shadow_rays,
+          value_parser = clap::value_parser!(u32).range(1..=i64::from(Settings::MAX_SHADOW_RAYS)))]
+    shadow_rays: u32,
+    /// Every random number comes from this
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+}
+
+/// A scene with its light.
+pub struct Solved {
+    pub world: Arc<World>,
+    pub settings: Settings,
+    pub solution: Solution,
+}
+
+impl RunOptions {
+    fn settings(&self) -> Settings {
+        let limit = self.converge.map_or(Settings::default().unshot_limit, |percent| percent / 100.0);
+        Settings {
+            mesh: MeshSettings { element_size: self.element.map(|size| size as f32) },
+            // A run that ends by a count or by the clock does not end before.
+            unshot_limit: if self.steps.is_some() || self.time.is_some() { 0.0 } else { limit },
+            shadow_rays: self.shadow_rays,
+            seed: self.seed,
+        }
+    }
+
+    /// Opens the scene and prepares it.
+    pub fn open(&self) -> Result<Arc<World>, CliError> {
+        let mut scene = Scene::open(&self.scene)?;
+        if self.ceiling_light && !scene.has_emitter() {
+            scene = scene.with_ceiling_light();
+        }
+        Ok(Arc::new(World::build(scene, &self.settings().mesh, &Cancel::default())?))
+    }
+
+    /// Opens the scene and runs the method until it should stop.
+    pub fn solve(&self) -> Result<Solved, CliError> {
+        let world = self.open()?;
+        warn_of(&world.scene.findings);
+        let settings = self.settings();
+        let mut run = Run::start(world.clone(), &settings);
+        let time = self.time.map_or(Duration::MAX, Duration::from_secs_f64);
+        let mut steps_left = self.steps.unwrap_or(u64::MAX);
+        while steps_left > 0 && run.elapsed() < time && run.step(&Cancel::default()) == Step::Advanced {
+            steps_left -= 1;
+        }
+        let mut solution = run.solution();
+        // However it ended, this says whether it would have ended by itself.
+        solution.converged = solution.energy.unshot_share() <= Settings::default().unshot_limit.max(settings.unshot_limit);
+        Ok(Solved { world, settings, solution })
+    }
+}

@@ -1,0 +1,136 @@
+//! From radiance to what a screen can show.
+
+use crate::math::rgb::{Rgb64, luminance};
+use crate::solution::Solution;
+use crate::world::World;
+use std::f64::consts::PI;
+use std::fmt;
+use std::str::FromStr;
+
+/// How bright the picture is. An exposure of `ev` shows a radiance L [W/(m²·sr)] as 2^ev · L, where 1 is the white of a
+/// screen before its [`ToneCurve`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Exposure {
+    /// See [`automatic_exposure`].
+    #[default]
+    Automatic,
+    /// This many stops.
+    Manual(f32),
+}
+
+impl Exposure {
+    /// The exposure in stops.
+    pub fn ev(self, world: &World, solution: &Solution) -> f32 {
+        match self {
+            Self::Automatic => automatic_exposure(world, solution),
+            Self::Manual(ev) => ev,
+        }
+    }
+}
+
+/// How exposed values become values of a screen.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ToneCurve {
+    /// Values up to 1 as they are; what is brighter is white.
+    Linear,
+    /// A film's shoulder and toe: Narkowicz's fit (2016) of the reference curve of the Academy Color Encoding System.
+    #[default]
+    Filmic,
+}
+
+impl ToneCurve {
+    pub const ALL: [Self; 2] = [Self::Filmic, Self::Linear];
+
+    /// For people.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::Linear => "Linear",
+            Self::Filmic => "Filmic",
+        }
+    }
+
+    /// For command lines and files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Linear => "linear",
+            Self::Filmic => "filmic",
+        }
+    }
+}
+
+impl fmt::Display for ToneCurve {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl FromStr for ToneCurve {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let found = Self::ALL.into_iter().find(|curve| curve.name() == text);
+        found.ok_or_else(|| {
+            format!("no tone curve is called `{text}` (there are {})", Self::ALL.map(Self::name).join(", "))
+        })
+    }
+}
+
+/// What the mean radiance of a picture is shown as.
+const MID_GREY: f64 = 0.18;
+
+/// The exposure in stops at which the surfaces that do not emit will be mid grey on average, once all light is shot; all
+/// surfaces, where all emit.
+///
+/// It foresees the end by the ambient term of Cohen, Chen, Wallace and Greenberg (1988), so it hardly changes while light
+/// spreads: brightness is seen to grow. 0 where there is no light.
+pub fn automatic_exposure(world: &World, solution: &Solution) -> f32 {
+    let mean_radiance = f64::from(luminance(expected_radiosity(world, solution).as_vec3())) / PI;
+    if mean_radiance > 0.0 { (MID_GREY / mean_radiance).log2() as f32 } else { 0.0 }
+}
+
+/// The mean radiosity [W/m²] that elements without emission will have in the end: what they have now, and their share of
+/// the unshot flux, spread evenly over all surfaces with all its reflections to come.
+fn expected_radiosity(world: &World, solution: &Solution) -> Rgb64 {
+    let mut dark = Surfaces::default();
+    let mut bright = Surfaces::default();
+    for patch in &world.mesh.patches {
+        let material = &world.scene.materials[patch.material as usize];
+        let surfaces = if material.is_emitter() { &mut bright } else { &mut dark };
+        surfaces.area += patch.area;
+        surfaces.reflecting += patch.area * material.diffuse.as_dvec3();
+        for index in patch.elements.start as usize..patch.elements.end as usize {
+            surfaces.flux += world.mesh.elements[index].area * solution.light.radiosity[index].as_dvec3();
+        }
+    }
+    let all = Surfaces {
+        area: dark.area + bright.area,
+        reflecting: dark.reflecting + bright.reflecting,
+        flux: dark.flux + bright.flux,
+    };
+    if all.area == 0.0 {
+        return Rgb64::ZERO;
+    }
+    let seen = if dark.area > 0.0 { &dark } else { &all };
+    let reflectance = all.reflecting / all.area;
+    let kept = 1.0 - escaping_share(solution, reflectance);
+    let ambient = solution.energy.unshot * kept / (all.area * (1.0 - reflectance * kept));
+    (seen.flux + seen.reflecting * ambient) / seen.area
+}
+
+/// Sums over some surfaces.
+#[derive(Default)]
+struct Surfaces {
+    /// m²
+    area: f64,
+    /// ρ A, m²
+    reflecting: Rgb64,
+    /// B A, W
+    flux: Rgb64,
+}
+
+/// The share of shot flux that has left the scene so far: of what surfaces took in, ρ was handed on and 1 − ρ absorbed.
+fn escaping_share(solution: &Solution, reflectance: Rgb64) -> Rgb64 {
+    let arrived = solution.energy.absorbed / (1.0 - reflectance);
+    let escaped = solution.energy.escaped;
+    (escaped / (arrived + escaped).max(Rgb64::splat(f64::MIN_POSITIVE))).clamp(Rgb64::ZERO, Rgb64::ONE)
+}

@@ -1,0 +1,147 @@
+//! A picture without a window.
+
+use super::readback::{from_half, read_texture};
+use super::targets::{self, SAMPLES};
+use super::{Frame, Gpu, GpuError, Viewport};
+use crate::solution::Solution;
+use crate::world::World;
+use bytemuck::{cast_slice, pod_collect_to_vec};
+use glam::DVec2;
+use std::f32::consts::PI;
+use wgpu::TextureUsages;
+
+/// A finished picture, row by row from the top left.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    /// Width and height, pixels.
+    pub size: [u32; 2],
+    /// Linear radiance, W/(m²·sr), premultiplied with the fourth channel: the share of the pixel that the scene covers.
+    pub linear: Vec<[f32; 4]>,
+    /// As on the screen: exposed, tone-mapped and encoded, on an opaque background.
+    pub srgb: Vec<[u8; 4]>,
+}
+
+/// Draws a frame of a world and its light as a window would, with `samples` a pixel, rounded up to a multiple of 4.
+///
+/// # Errors
+/// If the picture is empty or larger than the adapter can draw, or the device fails.
+pub fn render_picture(
+    gpu: &Gpu,
+    world: &World,
+    solution: &Solution,
+    frame: &Frame,
+    samples: u32,
+) -> Result<Picture, GpuError> {
+    check_size(gpu, frame.size)?;
+    gpu.check()?;
+    let mut viewport = Viewport::new(gpu, FINISHED);
+    viewport.set_world(world);
+    viewport.set_light(world, solution);
+    let draws = samples.div_ceil(SAMPLES).max(1);
+    let mut sum = Sum::new(frame.size);
+    for draw in 0..draws {
+        viewport.accumulate(frame, subpixel(draw, draws), &mut sum)?;
+    }
+    viewport.finish(&sum.mean(draws))
+}
+
+/// Of pictures for files.
+const FINISHED: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+/// Of means over several draws, which are more precise than one.
+const MEAN: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
+
+/// Radiance as stored and coverage by lines, four floats a pixel each.
+struct Sum {
+    size: [u32; 2],
+    radiance: Vec<f32>,
+    overlay: Vec<f32>,
+}
+
+impl Sum {
+    fn new(size: [u32; 2]) -> Self {
+        let channels = 4 * size[0] as usize * size[1] as usize;
+        Self { size, radiance: vec![0.0; channels], overlay: vec![0.0; channels] }
+    }
+
+    fn mean(mut self, draws: u32) -> Self {
+        for value in self.radiance.iter_mut().chain(&mut self.overlay) {
+            *value /= draws as f32;
+        }
+        self
+    }
+}
+
+impl Viewport {
+    /// Draws once and adds the result to `sum`.
+    fn accumulate(&mut self, frame: &Frame, shift: DVec2, sum: &mut Sum) -> Result<(), GpuError> {
+        let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        self.draw_shifted(&mut encoder, frame, shift);
+        self.gpu.queue.submit([encoder.finish()]);
+        let Some(targets) = &self.targets else { return Ok(()) };
+        let radiance: Vec<u16> = pod_collect_to_vec(&read_texture(&self.gpu, &targets.radiance)?);
+        for (sum, half) in sum.radiance.iter_mut().zip(radiance) {
+            *sum += from_half(half);
+        }
+        let overlay = read_texture(&self.gpu, &targets.overlay)?;
+        for (sum, lines) in sum.overlay.chunks_exact_mut(4).zip(overlay.chunks_exact(2)) {
+            sum[0] += f32::from(lines[0]) / 255.0;
+            sum[1] += f32::from(lines[1]) / 255.0;
+        }
+        Ok(())
+    }
+
+    /// Presents a mean of draws and reads the result.
+    fn finish(&self, mean: &Sum) -> Result<Picture, GpuError> {
+        let [radiance, overlay] = [&mean.radiance, &mean.overlay].map(|values| self.upload(mean.size, values));
+        let group = self.present_group(&radiance, &overlay);
+        let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::COPY_SRC;
+        let finished = targets::texture(&self.gpu.device, mean.size, FINISHED, 1, usage);
+        let view = targets::view(&finished);
+        let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("finish"),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: &view,
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations::default(),
+            })],
+            ..wgpu::RenderPassDescriptor::default()
+        });
+        self.present_with(&mut pass, &group);
+        drop(pass);
+        self.gpu.queue.submit([encoder.finish()]);
+        let srgb = pod_collect_to_vec(&read_texture(&self.gpu, &finished)?);
+        let stored = self.world.as_ref().map_or(1.0, |world| world.scale * PI);
+        let linear =
+            mean.radiance.chunks_exact(4).map(|v| [v[0] / stored, v[1] / stored, v[2] / stored, v[3]]).collect();
+        Ok(Picture { size: mean.size, linear, srgb })
+    }
+
+    /// A texture of four floats a pixel.
+    fn upload(&self, size: [u32; 2], values: &[f32]) -> wgpu::Texture {
+        let usage = TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST;
+        let texture = targets::texture(&self.gpu.device, size, MEAN, 1, usage);
+        let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(16 * size[0]), rows_per_image: None };
+        self.gpu.queue.write_texture(texture.as_image_copy(), cast_slice(values), layout, texture.size());
+        texture
+    }
+}
+
+fn check_size(gpu: &Gpu, [width, height]: [u32; 2]) -> Result<(), GpuError> {
+    let limit = gpu.device.limits().max_texture_dimension_2d;
+    let possible = 1..=limit;
+    if possible.contains(&width) && possible.contains(&height) {
+        Ok(())
+    } else {
+        Err(GpuError::PictureSize { width, height, limit })
+    }
+}
+
+/// By how much the picture is moved in one of several draws, pixels. One draw has a sample near the middle of each quarter
+/// of a pixel; the shifts spread over a quarter (Hammersley's points), and there is none in a single draw.
+fn subpixel(draw: u32, draws: u32) -> DVec2 {
+    let x = (f64::from(draw) + 0.5) / f64::from(draws);
+    let y = f64::from(draw.reverse_bits()) / 2f64.powi(32) + 0.5 / f64::from(draws);
+    0.5 * (DVec2::new(x, y) - 0.5)
+}

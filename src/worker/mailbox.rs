@@ -1,0 +1,145 @@
+//! Commands on their way to the solver thread: a queue in which the newest of a kind wins.
+
+use super::Command;
+use crate::cancel::Cancel;
+use std::collections::VecDeque;
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+
+#[derive(Default)]
+pub struct Mailbox {
+    queue: Mutex<Queue>,
+    posted: Condvar,
+    /// Stops a step: any command does.
+    step: Cancel,
+    /// Stops the opening of a scene: only another scene does.
+    load: Cancel,
+}
+
+#[derive(Default)]
+struct Queue {
+    commands: VecDeque<Command>,
+    is_closed: bool,
+}
+
+/// What the solver finds when it looks.
+pub enum Mail {
+    Command(Command),
+    /// Nothing to read now.
+    Empty,
+    /// The window is gone.
+    Closed,
+}
+
+impl Mailbox {
+    /// Puts a command in and interrupts the work that it supersedes.
+    pub fn post(&self, command: Command) {
+        let mut queue = self.lock();
+        if matches!(command, Command::Load(_)) {
+            self.load.request();
+        }
+        merge(&mut queue.commands, command);
+        self.step.request();
+        self.posted.notify_one();
+    }
+
+    /// Tells the solver to end.
+    pub fn close(&self) {
+        self.lock().is_closed = true;
+        self.load.request();
+        self.step.request();
+        self.posted.notify_one();
+    }
+
+    /// Takes the oldest command out. With `wait`, sleeps until there is one.
+    pub fn take(&self, wait: bool) -> Mail {
+        let mut queue = self.lock();
+        while wait && queue.commands.is_empty() && !queue.is_closed {
+            queue = self.posted.wait(queue).unwrap_or_else(PoisonError::into_inner);
+        }
+        if queue.is_closed {
+            return Mail::Closed;
+        }
+        let command = queue.commands.pop_front();
+        // Under the lock, so that a request which belongs to a command still in the queue is never lost.
+        if queue.commands.is_empty() {
+            self.step.clear();
+        }
+        if !queue.commands.iter().any(|command| matches!(command, Command::Load(_))) {
+            self.load.clear();
+        }
+        command.map_or(Mail::Empty, Mail::Command)
+    }
+
+    /// The flag for steps.
+    pub fn step_cancel(&self) -> &Cancel {
+        &self.step
+    }
+
+    /// The flag for the opening of scenes.
+    pub fn load_cancel(&self) -> &Cancel {
+        &self.load
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Queue> {
+        self.queue.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Adds a command and drops those that it makes pointless.
+fn merge(commands: &mut VecDeque<Command>, new: Command) {
+    match &new {
+        Command::Load(_) => commands.clear(),
+        Command::Configure(_) => commands.retain(|old| !matches!(old, Command::Configure(_))),
+        Command::Run | Command::Pause => commands.retain(|old| !matches!(old, Command::Run | Command::Pause)),
+        Command::Step(more) => {
+            if let Some(Command::Step(steps)) = commands.back_mut() {
+                *steps += more;
+                return;
+            }
+        }
+        Command::Reset => {
+            commands.retain(|old| !matches!(old, Command::Run | Command::Pause | Command::Step(_) | Command::Reset));
+        }
+        Command::AddCeilingLight => {}
+    }
+    commands.push_back(new);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::methods::Settings;
+
+    fn merged(commands: impl IntoIterator<Item = Command>) -> Vec<Command> {
+        let mut queue = VecDeque::new();
+        for command in commands {
+            merge(&mut queue, command);
+        }
+        queue.into()
+    }
+
+    #[test]
+    fn the_newest_of_a_kind_wins() {
+        let with_seed = |seed| Command::Configure(Settings { seed, ..Settings::default() });
+        assert_eq!(merged([with_seed(1), Command::Run, with_seed(2)]), [Command::Run, with_seed(2)]);
+        assert_eq!(merged([Command::Run, Command::Pause, Command::Run]), [Command::Run]);
+        assert_eq!(merged([Command::Step(1), Command::Step(10)]), [Command::Step(11)]);
+        assert_eq!(merged([Command::Run, Command::Step(5), Command::Reset]), [Command::Reset]);
+        let load = Command::Load("furnace".to_owned());
+        assert_eq!(merged([with_seed(1), Command::Run, load.clone()]), [load]);
+    }
+
+    #[test]
+    fn only_a_scene_interrupts_the_opening_of_a_scene() {
+        let mailbox = Mailbox::default();
+        mailbox.post(Command::Run);
+        assert!(mailbox.step_cancel().is_requested() && !mailbox.load_cancel().is_requested());
+        mailbox.post(Command::Load("furnace".to_owned()));
+        assert!(mailbox.load_cancel().is_requested());
+        assert!(matches!(mailbox.take(false), Mail::Command(Command::Load(_))));
+        assert!(!mailbox.step_cancel().is_requested() && !mailbox.load_cancel().is_requested());
+        assert!(matches!(mailbox.take(false), Mail::Empty));
+        mailbox.close();
+        assert!(matches!(mailbox.take(true), Mail::Closed));
+    }
+}

@@ -1,0 +1,194 @@
+//! The loop of the solver thread.
+
+use super::mailbox::{Mail, Mailbox};
+use super::{Command, Phase, Run, Slot, Snapshot, StartMethod};
+use crate::errors::with_causes;
+use crate::methods::{Settings, Step};
+use crate::scene::Scene;
+use crate::world::{World, WorldError};
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// While running, snapshots are at least this far apart: 30 a second are as many as anyone sees.
+const PUBLISH_INTERVAL: Duration = Duration::from_millis(33);
+
+/// The state of the thread.
+pub struct Solver {
+    mailbox: Arc<Mailbox>,
+    slot: Arc<Slot>,
+    start_method: Box<StartMethod>,
+    /// What was published last; its parts are shared with whoever looks at it.
+    snapshot: Snapshot,
+    run: Option<Run>,
+    /// Steps still to do; `None` while there is no end to them.
+    steps_left: Option<u64>,
+    published: Instant,
+}
+
+impl Solver {
+    pub fn new(mailbox: Arc<Mailbox>, slot: Arc<Slot>, start_method: Box<StartMethod>) -> Self {
+        let snapshot = Snapshot::default();
+        Self { mailbox, slot, start_method, snapshot, run: None, steps_left: None, published: Instant::now() }
+    }
+
+    /// Serves until the mailbox is closed. A panic of a method ends its run, not the thread.
+    pub fn serve(mut self) {
+        loop {
+            let mail = self.mailbox.take(self.snapshot.phase != Phase::Running);
+            let work = match mail {
+                Mail::Closed => return,
+                Mail::Command(command) => catch_unwind(AssertUnwindSafe(|| self.apply(command))),
+                Mail::Empty => catch_unwind(AssertUnwindSafe(|| self.step())),
+            };
+            if let Err(panic) = work {
+                self.crash(&*panic);
+            }
+        }
+    }
+
+    fn apply(&mut self, command: Command) {
+        match command {
+            Command::Load(name) => self.load(&name),
+            Command::AddCeilingLight => self.add_ceiling_light(),
+            Command::Configure(settings) => self.configure(settings),
+            Command::Run => self.go(None),
+            Command::Step(steps) => self.go(Some(steps)),
+            Command::Pause => self.pause(),
+            Command::Reset => self.restart(),
+        }
+    }
+
+    fn load(&mut self, name: &str) {
+        let before = self.snapshot.phase.clone();
+        self.snapshot.phase = Phase::Loading(name.to_owned());
+        self.publish();
+        let built = Scene::open(name).map_err(|error| with_causes(&error)).and_then(|scene| self.build(scene));
+        self.take_over(built, before);
+    }
+
+    fn add_ceiling_light(&mut self) {
+        let Some(world) = self.snapshot.world.clone() else { return };
+        let before = self.snapshot.phase.clone();
+        let built = self.build(world.scene.with_ceiling_light());
+        self.take_over(built, before);
+    }
+
+    fn build(&self, scene: Scene) -> Result<World, String> {
+        World::build(scene, &self.snapshot.settings.mesh, self.mailbox.load_cancel()).map_err(|error| with_causes(&error))
+    }
+
+    fn configure(&mut self, settings: Settings) {
+        let old = std::mem::replace(&mut self.snapshot.settings, settings);
+        let Some(world) = self.snapshot.world.clone() else { return self.publish() };
+        if old.mesh == settings.mesh {
+            if !self.run.as_mut().is_some_and(|run| run.configure(&settings)) {
+                self.start(world);
+            }
+            if self.snapshot.phase == Phase::Converged {
+                self.snapshot.phase = Phase::Paused;
+            }
+            return self.publish();
+        }
+        let phase = self.snapshot.phase.clone();
+        let remeshed = world.remeshed(&settings.mesh).map_err(|error| with_causes(&error));
+        if remeshed.is_err() {
+            self.snapshot.settings = old;
+        }
+        self.take_over(remeshed, phase);
+    }
+
+    /// Shows a new world before its first step, or says why there is none and leaves everything as it was.
+    fn take_over(&mut self, built: Result<World, String>, before: Phase) {
+        match built {
+            Ok(world) => {
+                let world = Arc::new(world);
+                self.snapshot.world = Some(world.clone());
+                self.snapshot.error = None;
+                self.snapshot.phase = if before == Phase::Running { Phase::Running } else { Phase::Paused };
+                self.start(world);
+            }
+            Err(error) => {
+                // A load that another one interrupts is no error.
+                let is_superseded = error == WorldError::Cancelled.to_string();
+                self.snapshot.error = if is_superseded { self.snapshot.error.take() } else { Some(error) };
+                self.snapshot.phase = before;
+            }
+        }
+        self.publish();
+    }
+
+    fn start(&mut self, world: Arc<World>) {
+        let run = Run::of((self.start_method)(world, &self.snapshot.settings));
+        self.snapshot.solution = Some(Arc::new(run.solution()));
+        self.run = Some(run);
+    }
+
+    fn restart(&mut self) {
+        let Some(world) = self.snapshot.world.clone() else { return };
+        self.snapshot.error = None;
+        self.snapshot.phase = Phase::Paused;
+        self.start(world);
+        self.publish();
+    }
+
+    fn go(&mut self, steps: Option<u64>) {
+        if self.run.is_some() && steps != Some(0) {
+            // Steps asked for while others are under way come on top.
+            let under_way = self.steps_left.filter(|_| self.snapshot.phase == Phase::Running).unwrap_or(0);
+            self.steps_left = steps.map(|steps| steps + under_way);
+            self.snapshot.error = None;
+            self.snapshot.phase = Phase::Running;
+            self.publish();
+        }
+    }
+
+    fn pause(&mut self) {
+        if self.snapshot.phase == Phase::Running {
+            self.snapshot.phase = Phase::Paused;
+            self.publish_solution();
+        }
+    }
+
+    fn step(&mut self) {
+        let Some(run) = &mut self.run else { return };
+        match run.step(self.mailbox.step_cancel()) {
+            Step::Cancelled => return,
+            Step::Converged => self.snapshot.phase = Phase::Converged,
+            Step::Advanced => {
+                if let Some(left) = &mut self.steps_left {
+                    *left -= 1;
+                    if *left == 0 {
+                        self.snapshot.phase = Phase::Paused;
+                    }
+                }
+            }
+        }
+        let is_stepping = self.steps_left.is_some();
+        if is_stepping || self.snapshot.phase != Phase::Running || self.published.elapsed() >= PUBLISH_INTERVAL {
+            self.publish_solution();
+        }
+    }
+
+    fn crash(&mut self, panic: &(dyn Any + Send)) {
+        let text = panic.downcast_ref::<String>().map(String::as_str);
+        let text = text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("no reason given");
+        self.run = None;
+        self.snapshot.error = Some(format!("the solver stopped: {text}"));
+        self.snapshot.phase = Phase::Crashed;
+        self.publish();
+    }
+
+    fn publish_solution(&mut self) {
+        if let Some(run) = &self.run {
+            self.snapshot.solution = Some(Arc::new(run.solution()));
+        }
+        self.publish();
+    }
+
+    fn publish(&mut self) {
+        self.published = Instant::now();
+        self.slot.publish(self.snapshot.clone());
+    }
+}

@@ -1,0 +1,56 @@
+//! How much of each element light can reach.
+//!
+//! Where a block stands on a floor, some elements of the floor are under it, and some only in part. The covered part
+//! belongs to no surface that anyone sees; if it took part in means, the floor would be dark along the foot of the block
+//! and light would creep under it.
+
+use crate::mesh::{Element, Mesh};
+use crate::tracer::{Ray, Tracer};
+use glam::Vec3A;
+use rayon::prelude::*;
+
+/// An element whose first five points do not agree is looked at through a grid of this many points across.
+const GRID: u32 = 8;
+/// Where the first points lie, as a share of the way from a corner to the centre.
+const INSET: f32 = 0.02;
+
+/// Whether a point, lifted off a surface with this normal, is where light cannot be: straight ahead is a side that
+/// nothing reaches. From a point that light reaches, no such side can be seen.
+pub fn is_covered(mesh: &Mesh, tracer: &Tracer, point: Vec3A, normal: Vec3A) -> bool {
+    let ahead = tracer.closest(&Ray { origin: point, direction: normal });
+    ahead.is_some_and(|hit| mesh.side(hit.polygon, hit.is_front).is_none())
+}
+
+/// The exposed share of every element, in [0, 1].
+pub fn shares(mesh: &Mesh, tracer: &Tracer) -> Vec<f32> {
+    if mesh.sides.iter().all(Option::is_some) {
+        return vec![1.0; mesh.elements.len()];
+    }
+    mesh.elements.par_iter().map(|element| share(mesh, tracer, element)).collect()
+}
+
+fn share(mesh: &Mesh, tracer: &Tracer, element: &Element) -> f32 {
+    let normal = mesh.patches[element.patch as usize].normal;
+    let (corners, count) = mesh.element_corners(element);
+    let corners = corners.map(Vec3A::from);
+    let is_exposed = |point: Vec3A| !is_covered(mesh, tracer, tracer.lift(point, normal), normal);
+    let inset = corners[..count].iter().map(|corner| corner.lerp(element.center, INSET));
+    let first = inset.chain([element.center]).filter(|&point| is_exposed(point)).count();
+    if first == 0 || first == count + 1 {
+        return if first == 0 { 0.0 } else { 1.0 };
+    }
+    let points = grid(&corners, count);
+    points.iter().filter(|&&point| is_exposed(point)).count() as f32 / points.len() as f32
+}
+
+/// The centres of equal cells that tile a triangle or quad.
+fn grid([a, b, c, d]: &[Vec3A; 4], count: usize) -> Vec<Vec3A> {
+    let at = |i: u32| (i as f32 + 0.5) / GRID as f32;
+    let cells = (0..GRID).flat_map(|i| (0..GRID).map(move |j| (at(i), at(j))));
+    if count == 3 {
+        let upright = cells.map(|(u, v)| if u + v < 1.0 { (u, v) } else { (1.0 - u, 1.0 - v) });
+        upright.map(|(u, v)| *a + u * (*b - *a) + v * (*c - *a)).collect()
+    } else {
+        cells.map(|(u, v)| a.lerp(*b, u).lerp(d.lerp(*c, u), v)).collect()
+    }
+}

@@ -1,3 +1,0 @@
-//! Shapes and oracles that several tests share.
-
-pub mod shapes;
