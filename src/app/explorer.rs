@@ -3,13 +3,14 @@
 use super::action::Action;
 use super::file_dialogs::{FileDialogs, Outcome};
 use super::frame_clock::FrameClock;
-use super::model::{Dialog, Look, Model, PathPurpose, PictureFormat, PictureRequest, SceneFacts};
+use super::model::{Dialog, Look, Model, PathPurpose, PictureRequest, SceneFacts, extension};
 use super::notices::Notices;
 use super::panels;
-use super::pictures::{self, Destination, Job, Pictures};
+use super::pictures::{Destination, Job, Pictures};
 use super::preferences::Preferences;
 use super::theme;
 use super::viewport_pane::ViewportPane;
+use crate::cli::picture::{self, Format};
 use crate::methods::Settings;
 use crate::scene::Source;
 use crate::worker::{Command, Snapshot, Worker};
@@ -151,12 +152,12 @@ impl Explorer {
             Action::ApplySettings(settings) => self.configure(settings),
             Action::Camera(movement) => self.pane.move_camera(movement),
             Action::SavePictureNow => {
-                let request = PictureRequest { size: self.pane.size(), samples: 16, format: PictureFormat::Png };
+                let request = PictureRequest { size: self.pane.size(), samples: 16, format: Format::Png };
                 self.save_picture(request, Destination::Free(request.format));
             }
             Action::BrowseForPicture(request) => {
                 let scene = SceneFacts::of(&self.snapshot).map_or("scene", |facts| facts.name);
-                let name = format!("lightwell-{scene}.{}", request.format.extension());
+                let name = format!("lightwell-{scene}.{}", extension(request.format));
                 self.file_dialogs.save_picture(request, name);
             }
             Action::SavePicture(request, path) => self.save_picture(request, Destination::File(path)),
@@ -192,7 +193,7 @@ impl Explorer {
             return;
         };
         let job = Job {
-            facts: pictures::facts(world, solution, &self.snapshot.settings, &frame),
+            facts: picture::facts(world, solution, &self.snapshot.settings, &frame),
             world: Arc::clone(world),
             solution: Arc::clone(solution),
             frame,

@@ -1,6 +1,6 @@
 //! The system's own file dialogs, each on a thread of its own, so that the window goes on meanwhile.
 
-use super::model::{PathPurpose, PictureRequest};
+use super::model::{PathPurpose, PictureRequest, extension};
 use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::{Duration, Instant};
@@ -37,7 +37,7 @@ impl FileDialogs {
     }
 
     pub fn save_picture(&mut self, request: PictureRequest, name: String) {
-        let extension = request.format.extension();
+        let extension = extension(request.format);
         let dialog = rfd::FileDialog::new()
             .set_title("Save a picture")
             .add_filter(extension.to_uppercase(), &[extension])

@@ -1,5 +1,6 @@
 //! What the panels show. They read a [`Model`] and return [`super::Action`]s; nothing here can be changed by them.
 
+use crate::cli::picture::Format;
 use crate::methods::Settings;
 use crate::scene::{Finding, FindingKind};
 use crate::solution::Solution;
@@ -122,23 +123,14 @@ pub struct PictureRequest {
     pub size: [u32; 2],
     /// Samples a pixel.
     pub samples: u32,
-    pub format: PictureFormat,
+    pub format: Format,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PictureFormat {
-    /// Tone-mapped, 8 bits a channel, sRGB.
-    Png,
-    /// Linear radiance, half floats.
-    Exr,
-}
-
-impl PictureFormat {
-    pub fn extension(self) -> &'static str {
-        match self {
-            Self::Png => "png",
-            Self::Exr => "exr",
-        }
+/// The ending of files of this format.
+pub fn extension(format: Format) -> &'static str {
+    match format {
+        Format::Png => "png",
+        Format::Exr => "exr",
     }
 }
 

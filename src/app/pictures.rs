@@ -1,8 +1,8 @@
 //! Pictures saved from the window, one after the other on a thread of their own.
 
-use super::model::PictureFormat;
-use crate::cli::picture;
-use crate::methods::Settings;
+use super::model::extension;
+use crate::cli::picture::{self, Format};
+use crate::errors::with_causes;
 use crate::solution::Solution;
 use crate::viewport::{Frame, Gpu, render_picture};
 use crate::world::World;
@@ -25,7 +25,7 @@ pub struct Job {
 pub enum Destination {
     File(PathBuf),
     /// The pictures folder, under a name that is free when the picture is ready.
-    Free(PictureFormat),
+    Free(Format),
 }
 
 /// The thread that renders and writes. It ends when this is dropped, after the picture it is at.
@@ -64,37 +64,13 @@ impl Pictures {
 }
 
 fn save(gpu: &Gpu, job: &Job) -> Result<PathBuf, String> {
-    let picture = render_picture(gpu, &job.world, &job.solution, &job.frame, job.samples).map_err(|e| chain(&e))?;
+    let picture = render_picture(gpu, &job.world, &job.solution, &job.frame, job.samples).map_err(|error| with_causes(&error))?;
     let path = match &job.destination {
         Destination::File(path) => path.clone(),
-        Destination::Free(format) => free_path(&pictures_folder(), &job.world.scene.name, format.extension()),
+        Destination::Free(format) => free_path(&pictures_folder(), &job.world.scene.name, extension(*format)),
     };
-    picture::save(&path, &picture, &job.facts).map_err(|error| chain(&error))?;
+    picture::save(&path, &picture, &job.facts).map_err(|error| with_causes(&error))?;
     Ok(path)
-}
-
-/// What a picture says of itself: enough to make it again.
-pub fn facts(world: &World, solution: &Solution, settings: &Settings, frame: &Frame) -> Vec<(String, String)> {
-    let element_size = settings.mesh.element_size.map_or_else(|| "automatic".to_owned(), |size| format!("{size} m"));
-    let viewpoint = frame.camera.viewpoint();
-    let facts = [
-        ("Software", concat!("Lightwell ", env!("CARGO_PKG_VERSION")).to_owned()),
-        ("Scene", world.scene.name.clone()),
-        ("View", frame.view.to_string()),
-        ("Eye", format!("{}", viewpoint.eye)),
-        ("Target", format!("{}", viewpoint.target)),
-        ("Up", format!("{}", viewpoint.up)),
-        ("Vertical field of view", format!("{} deg", viewpoint.vertical_fov)),
-        ("Exposure", format!("{} EV, {}", frame.exposure_ev, frame.tone)),
-        ("Method", "progressive radiosity".to_owned()),
-        ("Element size", element_size),
-        ("Shadow rays", settings.shadow_rays.to_string()),
-        ("Stop limit", settings.unshot_limit.to_string()),
-        ("Steps", solution.steps.to_string()),
-        ("Seconds", format!("{:.3}", solution.elapsed.as_secs_f64())),
-        ("Seed", settings.seed.to_string()),
-    ];
-    facts.map(|(key, value)| (key.to_owned(), value)).into()
 }
 
 /// The folder for pictures that were not given one: `Pictures` in the home folder, else the current one.
@@ -107,17 +83,6 @@ fn pictures_folder() -> PathBuf {
 fn free_path(folder: &Path, scene: &str, extension: &str) -> PathBuf {
     let numbered = |n: u32| folder.join(format!("lightwell-{scene}-{n}.{extension}"));
     (1..).map(numbered).find(|path| !path.exists()).expect("a folder has less than 2³² files")
-}
-
-/// An error and its causes in one line.
-fn chain(error: &dyn std::error::Error) -> String {
-    let mut text = error.to_string();
-    let mut cause = error.source();
-    while let Some(error) = cause {
-        text = format!("{text}: {error}");
-        cause = error.source();
-    }
-    text
 }
 
 #[cfg(test)]

@@ -3,8 +3,9 @@
 use super::widgets::{Choice, heading, labelled, primary_button, row, segmented};
 use crate::app::action::Action;
 use crate::app::keys::BINDINGS;
-use crate::app::model::{Dialog, Model, PathPurpose, PictureFormat, PictureRequest};
+use crate::app::model::{Dialog, Model, PathPurpose, PictureRequest};
 use crate::app::theme::UNIT;
+use crate::cli::picture::Format;
 use egui::{Align, Button, DragValue, Frame, Grid, Id, Key, Layout, Modal, RichText, TextEdit, Ui};
 use std::path::PathBuf;
 
@@ -63,9 +64,9 @@ fn picture(ui: &mut Ui, model: &Model, request: PictureRequest, actions: &mut Ve
 
 const SAMPLES: [(u32, &str); 3] = [(4, "4"), (16, "16"), (64, "64")];
 
-const FORMATS: [(PictureFormat, &str, &str); 2] = [
-    (PictureFormat::Png, "PNG", "As it looks on the screen"),
-    (PictureFormat::Exr, "EXR", "Linear radiance, without exposure and tone curve"),
+const FORMATS: [(Format, &str, &str); 2] = [
+    (Format::Png, "PNG", "As it looks on the screen"),
+    (Format::Exr, "EXR", "Linear radiance, without exposure and tone curve"),
 ];
 
 fn sizes(ui: &mut Ui, model: &Model, request: &mut PictureRequest) {

@@ -3,7 +3,8 @@
 use super::icons::Icon;
 use crate::app::action::{Action, CameraMove};
 use crate::app::keys;
-use crate::app::model::{Dialog, Look, Model, PictureFormat, PictureRequest, Theme};
+use crate::app::model::{Dialog, Look, Model, PictureRequest, Theme};
+use crate::cli::picture::Format;
 use crate::scene::BUILTINS;
 use crate::viewport::View;
 use egui::accesskit::Role;
@@ -40,7 +41,7 @@ fn file_menu(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     ui.add_enabled_ui(model.scene.is_some(), |ui| {
         item(ui, "Save picture now", Some(&keys::SAVE_PICTURE), || actions.push(Action::SavePictureNow));
         item(ui, "Save picture as…", None, || {
-            let request = PictureRequest { size: model.viewport_size, samples: 16, format: PictureFormat::Png };
+            let request = PictureRequest { size: model.viewport_size, samples: 16, format: Format::Png };
             actions.push(Action::ShowDialog(Dialog::Picture(request)));
         });
     });
