@@ -3,8 +3,9 @@
 //! The modules form layers, and a name may be used only from a higher one (`tests/layering.rs` checks it): numbers
 //! ([`math`]), the world ([`scene`], [`mesh`], [`tracer`], [`world`]), what a method hands out ([`solution`]), the
 //! [`methods`], the solver thread ([`worker`]), the picture ([`camera`], [`viewport`]) and the two faces of the program
-//! ([`cli`], and the window).
+//! ([`cli`], [`app`]).
 
+pub mod app;
 pub mod camera;
 pub mod cancel;
 pub mod cli;

@@ -1,7 +1,8 @@
 //! The program: a window, or one of the commands that need none.
 
 use clap::Parser;
-use lightwell::cli::Cli;
+use lightwell::app;
+use lightwell::cli::{Cli, WindowOptions};
 use lightwell::errors::with_causes;
 use std::process::ExitCode;
 
@@ -10,7 +11,10 @@ fn main() -> ExitCode {
     let cli = Cli::parse();
     let result = match &cli.command {
         Some(command) => command.run().map_err(|error| with_causes(&error)),
-        None => Ok(()),
+        None => {
+            let WindowOptions { scene, adapter } = cli.window;
+            app::run(app::Options { scene, adapter }).map_err(|error| with_causes(&error))
+        }
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

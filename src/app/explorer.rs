@@ -1,0 +1,233 @@
+//! The program behind the window: it holds what is on show and is the one place that acts on wishes.
+
+use super::action::Action;
+use super::file_dialogs::{FileDialogs, Outcome};
+use super::frame_clock::FrameClock;
+use super::model::{Dialog, Look, Model, PathPurpose, PictureRequest, SceneFacts, extension};
+use super::notices::Notices;
+use super::panels;
+use super::pictures::{Destination, Job, Pictures};
+use super::preferences::Preferences;
+use super::theme;
+use super::viewport_pane::ViewportPane;
+use crate::cli::picture::{self, Format};
+use crate::methods::Settings;
+use crate::scene::Source;
+use crate::worker::{Command, Snapshot, Worker};
+use egui::{Ui, ViewportCommand};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// The window's state.
+pub struct Explorer {
+    worker: Worker,
+    snapshot: Arc<Snapshot>,
+    pane: ViewportPane,
+    pictures: Pictures,
+    file_dialogs: FileDialogs,
+    look: Look,
+    /// Settings that are being edited, or were sent and are not in force yet.
+    edited: Option<Settings>,
+    dialog: Option<Dialog>,
+    notices: Notices,
+    /// Whether the snapshot's error was dismissed.
+    is_error_dismissed: bool,
+    preferences: Preferences,
+    adapter: String,
+    clock: FrameClock,
+}
+
+impl Explorer {
+    /// Starts the solver thread and opens `scene`, a path or the name of a built-in one.
+    ///
+    /// # Errors
+    /// If eframe gives no graphics device.
+    pub fn new(context: &eframe::CreationContext, scene: String) -> Result<Self, &'static str> {
+        let render_state = context.wgpu_render_state.clone().ok_or("the window has no graphics device")?;
+        let ctx = &context.egui_ctx;
+        let preferences: Preferences =
+            context.storage.and_then(|storage| eframe::get_value(storage, Preferences::KEY)).unwrap_or_default();
+        theme::install(ctx);
+        ctx.set_theme(preferences.theme);
+        let waker = ctx.clone();
+        let worker = Worker::spawn(move || waker.request_repaint());
+        worker.send(Command::Load(scene));
+        let pane = ViewportPane::new(render_state);
+        Ok(Self {
+            snapshot: worker.latest(),
+            worker,
+            pictures: Pictures::spawn(pane.gpu().clone(), ctx.clone()),
+            file_dialogs: FileDialogs::new(ctx),
+            look: Look::default(),
+            edited: None,
+            dialog: None,
+            notices: Notices::default(),
+            is_error_dismissed: false,
+            preferences,
+            adapter: pane.gpu().adapter_name(),
+            pane,
+            clock: FrameClock::default(),
+        })
+    }
+
+    /// Takes in what other threads and the clock have brought since the last frame.
+    fn catch_up(&mut self, ctx: &egui::Context) {
+        let snapshot = self.worker.latest();
+        let is_error_new = snapshot.error != self.snapshot.error;
+        if is_error_new {
+            self.is_error_dismissed = false;
+        }
+        if is_error_new || snapshot.settings != self.snapshot.settings {
+            self.edited = None;
+        }
+        self.snapshot = snapshot;
+        if self.pane.follow(&self.snapshot)
+            && let Some(Source::File(path)) = self.snapshot.world.as_ref().map(|world| &world.scene.source)
+        {
+            self.preferences.remember(path);
+        }
+        if self.pane.fly() {
+            ctx.request_repaint();
+        }
+        self.take_outcomes(ctx.input(|input| input.time));
+        if let Some(seconds) = self.notices.expire(ctx.input(|input| input.time)) {
+            ctx.request_repaint_after(Duration::from_secs_f64(seconds));
+        }
+    }
+
+    /// Outcomes of file dialogs, of pictures and of the graphics device.
+    fn take_outcomes(&mut self, now: f64) {
+        match self.file_dialogs.poll() {
+            Some(Outcome::Chosen(PathPurpose::OpenScene, path)) => self.open(path.to_string_lossy().into_owned()),
+            Some(Outcome::Chosen(PathPurpose::SavePicture(request), path)) => {
+                self.save_picture(request, Destination::File(path));
+            }
+            Some(Outcome::Unavailable(purpose)) => {
+                self.dialog = Some(Dialog::Path { purpose, text: String::new() });
+            }
+            Some(Outcome::Cancelled) | None => {}
+        }
+        match self.pictures.poll() {
+            Some(Ok(path)) => self.notices.tell(now, format!("Saved {}", path.display())),
+            Some(Err(reason)) => self.notices.warn(format!("The picture was not saved: {reason}")),
+            None => {}
+        }
+        if let Err(error) = self.pane.gpu().check() {
+            log::error!("{error}");
+            self.notices.warn(error.to_string());
+        }
+    }
+
+    fn show(&mut self, ui: &mut Ui) -> Vec<Action> {
+        let mut actions = Vec::new();
+        let error = self.snapshot.error.as_deref().filter(|_| !self.is_error_dismissed);
+        let model = Model {
+            phase: &self.snapshot.phase,
+            scene: SceneFacts::of(&self.snapshot),
+            solution: self.snapshot.solution.as_deref(),
+            settings: self.edited.unwrap_or(self.snapshot.settings),
+            error,
+            look: self.look,
+            viewport_size: self.pane.size(),
+            exposure_ev: self.pane.exposure_ev(&self.look),
+            theme: self.preferences.theme,
+            recent: &self.preferences.recent,
+            notices: self.notices.shown(),
+            dialog: self.dialog.as_ref(),
+            adapter: &self.adapter,
+            frame_time: self.clock.frame_time(),
+        };
+        let (pane, look) = (&mut self.pane, self.look);
+        panels::show(ui, &model, &mut actions, |ui, rect| pane.paint(ui, rect, &look));
+        actions
+    }
+
+    fn apply(&mut self, ctx: &egui::Context, action: Action) {
+        match action {
+            Action::Send(command) => self.worker.send(command),
+            Action::Open(scene) => self.open(scene),
+            Action::BrowseForScene => self.file_dialogs.open_scene(),
+            Action::SetLook(look) => self.look = look,
+            Action::EditSettings(settings) => self.edited = Some(settings),
+            Action::ApplySettings(settings) => self.configure(settings),
+            Action::Camera(movement) => self.pane.move_camera(movement),
+            Action::SavePictureNow => {
+                let request = PictureRequest { size: self.pane.size(), samples: 16, format: Format::Png };
+                self.save_picture(request, Destination::Free(request.format));
+            }
+            Action::BrowseForPicture(request) => {
+                let scene = SceneFacts::of(&self.snapshot).map_or("scene", |facts| facts.name);
+                let name = format!("lightwell-{scene}.{}", extension(request.format));
+                self.file_dialogs.save_picture(request, name);
+            }
+            Action::SavePicture(request, path) => self.save_picture(request, Destination::File(path)),
+            Action::SetTheme(theme) => {
+                self.preferences.theme = theme;
+                ctx.set_theme(theme);
+            }
+            Action::ShowDialog(dialog) => self.dialog = Some(dialog),
+            Action::CloseDialog => self.dialog = None,
+            Action::DismissError => self.is_error_dismissed = true,
+            Action::DismissNotice(id) => self.notices.dismiss(id),
+            Action::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
+        }
+    }
+
+    fn open(&mut self, scene: String) {
+        self.is_error_dismissed = false;
+        self.worker.send(Command::Load(scene));
+    }
+
+    fn configure(&mut self, settings: Settings) {
+        if settings == self.snapshot.settings {
+            self.edited = None;
+        } else {
+            self.edited = Some(settings);
+            self.worker.send(Command::Configure(settings));
+        }
+    }
+
+    fn save_picture(&mut self, request: PictureRequest, destination: Destination) {
+        let (Some((world, solution)), Some(frame)) = (self.pane.shown(), self.pane.frame(&self.look, request.size))
+        else {
+            return;
+        };
+        let job = Job {
+            facts: picture::facts(world, solution, &self.snapshot.settings, &frame),
+            world: Arc::clone(world),
+            solution: Arc::clone(solution),
+            frame,
+            samples: request.samples,
+            destination,
+        };
+        if let Err(reason) = self.pictures.save(job) {
+            self.notices.warn(reason);
+        }
+    }
+}
+
+impl eframe::App for Explorer {
+    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+        let start = Instant::now();
+        let ctx = ui.ctx().clone();
+        self.catch_up(&ctx);
+        let actions = self.show(ui);
+        let is_changed = !actions.is_empty();
+        for action in actions {
+            self.apply(&ctx, action);
+        }
+        if is_changed {
+            ctx.request_repaint();
+        }
+        self.clock.end_frame(start);
+    }
+
+    fn save(&mut self, storage: &mut dyn eframe::Storage) {
+        eframe::set_value(storage, Preferences::KEY, &self.preferences);
+    }
+
+    /// The layout is the same at every start; what is kept is in [`Preferences`].
+    fn persist_egui_memory(&self) -> bool {
+        false
+    }
+}

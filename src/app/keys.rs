@@ -1,0 +1,160 @@
+//! The keys of the window: one table that drives the window, its menus, its tooltips and its help.
+
+use super::action::{Action, CameraMove};
+use super::model::{Dialog, Look, Model};
+use crate::viewport::View;
+use crate::worker::Command;
+use egui::{Event, InputState, Key, KeyboardShortcut, Modifiers};
+
+/// A key, what it is for, and what it asks of the window as it stands.
+pub struct Binding {
+    pub shortcut: KeyboardShortcut,
+    /// `Run or pause`
+    pub purpose: &'static str,
+    /// Whether holding the key down asks again and again.
+    repeats: bool,
+    action: fn(&Model) -> Option<Action>,
+}
+
+impl Binding {
+    const fn new(shortcut: KeyboardShortcut, purpose: &'static str, action: fn(&Model) -> Option<Action>) -> Self {
+        Self { shortcut, purpose, repeats: false, action }
+    }
+
+    const fn repeating(self) -> Self {
+        Self { repeats: true, ..self }
+    }
+}
+
+const fn key(key: Key) -> KeyboardShortcut {
+    KeyboardShortcut::new(Modifiers::NONE, key)
+}
+
+pub const RUN: KeyboardShortcut = key(Key::Space);
+pub const STEP_1: KeyboardShortcut = key(Key::ArrowRight);
+pub const STEP_10: KeyboardShortcut = KeyboardShortcut::new(Modifiers::SHIFT, Key::ArrowRight);
+pub const STEP_100: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::ArrowRight);
+pub const RESET: KeyboardShortcut = key(Key::R);
+pub const PATCHES: KeyboardShortcut = key(Key::Num1);
+pub const SMOOTH: KeyboardShortcut = key(Key::Num2);
+pub const UNSHOT: KeyboardShortcut = key(Key::Num3);
+pub const WIREFRAME: KeyboardShortcut = key(Key::W);
+pub const SHOOTER: KeyboardShortcut = key(Key::O);
+pub const FIT: KeyboardShortcut = key(Key::F);
+pub const HOME: KeyboardShortcut = key(Key::H);
+pub const SAVE_PICTURE: KeyboardShortcut = key(Key::S);
+pub const OPEN: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::O);
+pub const QUIT: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::Q);
+pub const HELP: KeyboardShortcut = key(Key::F1);
+
+/// Every key of the window, in the order of its help.
+pub const BINDINGS: [Binding; 16] = [
+    Binding::new(RUN, "Run or pause", |model| model.can_run().then(|| run_or_pause(model))),
+    Binding::new(STEP_1, "One shot", |model| step(model, 1)).repeating(),
+    Binding::new(STEP_10, "Ten shots", |model| step(model, 10)),
+    Binding::new(STEP_100, "A hundred shots", |model| step(model, 100)),
+    Binding::new(RESET, "Start over from the emitters", |model| {
+        model.scene.is_some().then_some(Action::Send(Command::Reset))
+    }),
+    Binding::new(PATCHES, "View: one colour a patch", |model| view(model, View::Patches)),
+    Binding::new(SMOOTH, "View: smooth light", |model| view(model, View::Smooth)),
+    Binding::new(UNSHOT, "View: light not shot yet", |model| view(model, View::Unshot)),
+    Binding::new(WIREFRAME, "Show or hide the elements' edges", |model| {
+        Some(Action::SetLook(Look { wireframe: !model.look.wireframe, ..model.look }))
+    }),
+    Binding::new(SHOOTER, "Show or hide the outline of the shooter", |model| {
+        Some(Action::SetLook(Look { show_shooter: !model.look.show_shooter, ..model.look }))
+    }),
+    Binding::new(FIT, "Fit the scene into the view", |model| camera(model, CameraMove::Fit)),
+    Binding::new(HOME, "Back to the first view of the scene", |model| camera(model, CameraMove::Home)),
+    Binding::new(SAVE_PICTURE, "Save a picture of the view", |model| {
+        model.scene.is_some().then_some(Action::SavePictureNow)
+    }),
+    Binding::new(OPEN, "Open a scene", |_| Some(Action::BrowseForScene)),
+    Binding::new(HELP, "Show these keys", |_| Some(Action::ShowDialog(Dialog::Keys))),
+    Binding::new(QUIT, "Quit", |_| Some(Action::Quit)),
+];
+
+/// The key of a view.
+pub fn of_view(view: View) -> KeyboardShortcut {
+    match view {
+        View::Patches => PATCHES,
+        View::Smooth => SMOOTH,
+        View::Unshot => UNSHOT,
+    }
+}
+
+/// What the transport's first button and its key ask for.
+pub fn run_or_pause(model: &Model) -> Action {
+    Action::Send(if model.is_running() { Command::Pause } else { Command::Run })
+}
+
+fn step(model: &Model, shots: u64) -> Option<Action> {
+    model.can_run().then_some(Action::Send(Command::Step(shots)))
+}
+
+fn view(model: &Model, view: View) -> Option<Action> {
+    Some(Action::SetLook(Look { view, ..model.look }))
+}
+
+fn camera(model: &Model, movement: CameraMove) -> Option<Action> {
+    model.scene.is_some().then_some(Action::Camera(movement))
+}
+
+/// What has the keyboard.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Focus {
+    /// Nothing: every key is the window's.
+    Window,
+    /// A control that Space and the arrows work on.
+    Control,
+    /// Text that is being edited: every key belongs to it.
+    Text,
+}
+
+impl Focus {
+    pub fn of(ctx: &egui::Context) -> Self {
+        match ctx.egui_wants_keyboard_input() {
+            _ if ctx.text_edit_focused() => Self::Text,
+            true => Self::Control,
+            false => Self::Window,
+        }
+    }
+}
+
+/// Takes the keys that were pressed in this frame. `before` is the focus that the frame began with: a field that is left
+/// by Enter owns what was typed in the same frame. While a dialog is open, no key reaches the window behind it.
+pub fn read(ctx: &egui::Context, before: Focus, model: &Model, actions: &mut Vec<Action>) {
+    let focus = [before, Focus::of(ctx)];
+    if focus.contains(&Focus::Text) || model.dialog.is_some() {
+        return;
+    }
+    let control_has_focus = focus.contains(&Focus::Control);
+    // The table has plain keys first, but a key with modifiers must be tried before the same key without.
+    for needs_modifiers in [true, false] {
+        for binding in BINDINGS.iter().filter(|b| b.shortcut.modifiers.any() == needs_modifiers) {
+            let belongs_to_control = matches!(binding.shortcut.logical_key, Key::Space | Key::ArrowRight);
+            if control_has_focus && belongs_to_control {
+                continue;
+            }
+            if ctx.input_mut(|input| take(input, binding)) {
+                actions.extend((binding.action)(model));
+            }
+        }
+    }
+}
+
+/// Whether the binding's key went down in this frame; removes its events.
+fn take(input: &mut InputState, binding: &Binding) -> bool {
+    let mut pressed = false;
+    input.events.retain(|event| match event {
+        Event::Key { key, pressed: true, repeat, modifiers, .. }
+            if *key == binding.shortcut.logical_key && modifiers.matches_exact(binding.shortcut.modifiers) =>
+        {
+            pressed |= binding.repeats || !repeat;
+            false
+        }
+        _ => true,
+    });
+    pressed
+}

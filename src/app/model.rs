@@ -1,0 +1,172 @@
+//! What the panels show. They read a [`Model`] and return [`super::Action`]s; nothing here can be changed by them.
+
+use crate::cli::picture::Format;
+use crate::methods::Settings;
+use crate::scene::{Finding, FindingKind};
+use crate::solution::Solution;
+use crate::viewport::{Exposure, ToneCurve, View};
+use crate::worker::{Phase, Snapshot};
+use std::path::PathBuf;
+use std::time::Duration;
+
+pub use egui::Theme;
+
+/// Everything on show in one frame of the window.
+pub struct Model<'a> {
+    pub phase: &'a Phase,
+    /// The open scene, if one is open.
+    pub scene: Option<SceneFacts<'a>>,
+    pub solution: Option<&'a Solution>,
+    /// The settings as they stand in the controls: edited ones where an edit is under way, else those in force.
+    pub settings: Settings,
+    /// What went wrong last, unless it was dismissed.
+    pub error: Option<&'a str>,
+    pub look: Look,
+    /// Width and height of the viewport in pixels.
+    pub viewport_size: [u32; 2],
+    /// The exposure that is in force, in EV.
+    pub exposure_ev: f32,
+    pub theme: Theme,
+    /// Scene files that were opened before, newest first.
+    pub recent: &'a [PathBuf],
+    pub notices: &'a [Notice],
+    pub dialog: Option<&'a Dialog>,
+    /// Name of the graphics adapter.
+    pub adapter: &'a str,
+    pub frame_time: FrameTime,
+}
+
+impl Model<'_> {
+    /// Whether there is light to compute: a scene is open and the solver is alive.
+    pub fn can_run(&self) -> bool {
+        self.scene.is_some() && matches!(self.phase, Phase::Paused | Phase::Running)
+    }
+
+    pub fn is_running(&self) -> bool {
+        *self.phase == Phase::Running
+    }
+
+    /// How far the light is between the emitters (0) and the stop limit (1), on a logarithmic scale: shooting takes about
+    /// as long from 10 % to 1 % of unshot flux as from 100 % to 10 %.
+    pub fn progress(&self) -> f32 {
+        let Some(solution) = self.solution else { return 0.0 };
+        let unshot = solution.energy.unshot_share();
+        let limit = self.settings.unshot_limit;
+        if solution.converged || unshot <= limit {
+            return 1.0;
+        }
+        (unshot.ln() / limit.ln()).clamp(0.0, 1.0) as f32
+    }
+}
+
+/// What is known of the open scene.
+#[derive(Clone, Copy)]
+pub struct SceneFacts<'a> {
+    pub name: &'a str,
+    pub patches: usize,
+    pub elements: usize,
+    /// Half the diagonal of the box around the scene, m.
+    pub radius: f32,
+    /// Longest edge of an element, m.
+    pub element_size: f32,
+    /// What the doctor and the mesher noticed.
+    pub findings: &'a [Finding],
+}
+
+impl<'a> SceneFacts<'a> {
+    pub fn of(snapshot: &'a Snapshot) -> Option<Self> {
+        let world = snapshot.world.as_deref()?;
+        Some(Self {
+            name: &world.scene.name,
+            patches: world.mesh.patches.len(),
+            elements: world.mesh.elements.len(),
+            radius: world.bounds.radius(),
+            element_size: world.element_size,
+            findings: &world.scene.findings,
+        })
+    }
+
+    /// Whether the scene has no emitter and got no ceiling light instead.
+    pub fn is_dark(&self) -> bool {
+        let has = |kind| self.findings.iter().any(|finding| finding.kind == kind);
+        has(FindingKind::NoEmitter) && !has(FindingKind::CeilingLightAdded)
+    }
+}
+
+/// How the light is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Look {
+    pub view: View,
+    pub wireframe: bool,
+    /// Outlines the patch that shot last.
+    pub show_shooter: bool,
+    pub exposure: Exposure,
+    pub tone: ToneCurve,
+}
+
+impl Default for Look {
+    fn default() -> Self {
+        Self {
+            view: View::Smooth,
+            wireframe: false,
+            show_shooter: true,
+            exposure: Exposure::Automatic,
+            tone: ToneCurve::default(),
+        }
+    }
+}
+
+/// A picture to be saved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PictureRequest {
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// Samples a pixel.
+    pub samples: u32,
+    pub format: Format,
+}
+
+/// The ending of files of this format.
+pub fn extension(format: Format) -> &'static str {
+    match format {
+        Format::Png => "png",
+        Format::Exr => "exr",
+    }
+}
+
+/// The one dialog that is open.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Dialog {
+    Picture(PictureRequest),
+    /// A path to be typed, where the system has no file dialog.
+    Path {
+        purpose: PathPurpose,
+        text: String,
+    },
+    Keys,
+    About,
+}
+
+/// What a typed path is for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PathPurpose {
+    OpenScene,
+    SavePicture(PictureRequest),
+}
+
+/// A message over the viewport.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Notice {
+    pub id: u64,
+    pub text: String,
+    pub is_error: bool,
+    /// Until when it is shown, in seconds of egui's clock; errors stay until they are dismissed.
+    pub until: Option<f64>,
+}
+
+/// The window's own work for a frame: its panels and the upload of new light, without the solver and the swap.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct FrameTime {
+    pub mean: Duration,
+    pub worst: Duration,
+}

@@ -1,0 +1,176 @@
+//! The scene in the window: its camera, and its way onto the graphics device.
+
+use super::action::CameraMove;
+use super::model::Look;
+use crate::camera::{Camera, Flight};
+use crate::solution::Solution;
+use crate::viewport::{Frame, Gpu, Viewport, automatic_exposure};
+use crate::worker::Snapshot;
+use crate::world::World;
+use eframe::egui_wgpu::{Callback, CallbackResources, CallbackTrait, RenderState, ScreenDescriptor};
+use eframe::{egui_wgpu, wgpu};
+use egui::{PaintCallbackInfo, Rect, Ui};
+use std::sync::Arc;
+use std::time::Instant;
+
+/// What is on show, and from where.
+pub struct ViewportPane {
+    render_state: RenderState,
+    gpu: Gpu,
+    world: Option<Arc<World>>,
+    solution: Option<Arc<Solution>>,
+    camera: Option<Camera>,
+    /// A way that the camera is on, and when it set off.
+    flight: Option<(Flight, Instant)>,
+    /// Where automatic exposure stands, in EV.
+    automatic_ev: f32,
+    /// Width and height in pixels when it was drawn last.
+    size: [u32; 2],
+}
+
+impl ViewportPane {
+    pub fn new(render_state: RenderState) -> Self {
+        let gpu = Gpu::from_parts(render_state.device.clone(), render_state.queue.clone());
+        let viewport = Viewport::new(&gpu, render_state.target_format);
+        render_state.renderer.write().callback_resources.insert(viewport);
+        Self {
+            render_state,
+            gpu,
+            world: None,
+            solution: None,
+            camera: None,
+            flight: None,
+            automatic_ev: 0.0,
+            size: [1280, 960],
+        }
+    }
+
+    pub fn gpu(&self) -> &Gpu {
+        &self.gpu
+    }
+
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// Uploads what is new in the snapshot. A scene that was not on show before gets its own first view; the same scene
+    /// with another mesh keeps the camera. Returns whether another scene came on show.
+    pub fn follow(&mut self, snapshot: &Snapshot) -> bool {
+        let Some(world) = &snapshot.world else { return false };
+        let mut renderer = self.render_state.renderer.write();
+        let Some(viewport) = renderer.callback_resources.get_mut::<Viewport>() else { return false };
+        let mut is_other_scene = false;
+        if !is_same(&self.world, world) {
+            viewport.set_world(world);
+            is_other_scene = self.world.as_ref().is_none_or(|shown| !Arc::ptr_eq(&shown.scene, &world.scene));
+            self.world = Some(Arc::clone(world));
+            self.solution = None;
+        }
+        if let Some(solution) = snapshot.solution.as_ref().filter(|solution| !is_same(&self.solution, solution)) {
+            viewport.set_light(world, solution);
+            self.automatic_ev = automatic_exposure(world, solution);
+            self.solution = Some(Arc::clone(solution));
+        }
+        if is_other_scene {
+            self.camera = Some(Camera::new(&world.viewpoint, &world.bounds));
+            self.flight = None;
+        }
+        is_other_scene
+    }
+
+    /// The exposure that `look` asks for, in EV.
+    pub fn exposure_ev(&self, look: &Look) -> f32 {
+        match look.exposure {
+            crate::viewport::Exposure::Automatic => self.automatic_ev,
+            crate::viewport::Exposure::Manual(ev) => ev,
+        }
+    }
+
+    pub fn move_camera(&mut self, movement: CameraMove) {
+        let (Some(camera), Some(world)) = (&mut self.camera, &self.world) else { return };
+        let mut target = *camera;
+        match movement {
+            CameraMove::Orbit(drag) => camera.orbit(drag.x, drag.y),
+            CameraMove::Pan(drag) => camera.pan(drag.x, drag.y),
+            CameraMove::Zoom(factor) => camera.zoom(factor),
+            CameraMove::Fit => target.fit(&world.bounds, self.size[0] as f32 / self.size[1] as f32),
+            CameraMove::Home => target = Camera::new(&world.viewpoint, &world.bounds),
+        }
+        let flies = matches!(movement, CameraMove::Fit | CameraMove::Home);
+        self.flight = flies.then(|| (Flight { from: *camera, to: target }, Instant::now()));
+    }
+
+    /// Moves a flying camera on; returns whether it is still under way.
+    pub fn fly(&mut self) -> bool {
+        let Some((flight, start)) = &self.flight else { return false };
+        let now = flight.at(start.elapsed().as_secs_f32());
+        self.camera = Some(now.unwrap_or(flight.to));
+        if now.is_none() {
+            self.flight = None;
+        }
+        now.is_some()
+    }
+
+    /// What a picture of this size shows now; `None` while no scene is open.
+    pub fn frame(&self, look: &Look, size: [u32; 2]) -> Option<Frame> {
+        Some(Frame {
+            camera: self.camera?,
+            size,
+            view: look.view,
+            wireframe: look.wireframe,
+            show_shooter: look.show_shooter,
+            exposure_ev: self.exposure_ev(look),
+            tone: look.tone,
+        })
+    }
+
+    /// The world and the light on show.
+    pub fn shown(&self) -> Option<(&Arc<World>, &Arc<Solution>)> {
+        self.world.as_ref().zip(self.solution.as_ref())
+    }
+
+    /// Has the scene painted into `rect`.
+    pub fn paint(&mut self, ui: &Ui, rect: Rect, look: &Look) {
+        let pixels = rect.size() * ui.pixels_per_point();
+        self.size = [pixels.x.round().max(1.0) as u32, pixels.y.round().max(1.0) as u32];
+        if let Some(frame) = self.frame(look, self.size) {
+            ui.painter().add(Callback::new_paint_callback(rect, ScenePainter { frame }));
+        }
+    }
+}
+
+fn is_same<T>(shown: &Option<Arc<T>>, new: &Arc<T>) -> bool {
+    shown.as_ref().is_some_and(|shown| Arc::ptr_eq(shown, new))
+}
+
+/// Draws one frame within egui's own.
+struct ScenePainter {
+    frame: Frame,
+}
+
+impl CallbackTrait for ScenePainter {
+    fn prepare(
+        &self,
+        _device: &wgpu::Device,
+        _queue: &wgpu::Queue,
+        _screen: &ScreenDescriptor,
+        encoder: &mut wgpu::CommandEncoder,
+        resources: &mut CallbackResources,
+    ) -> Vec<wgpu::CommandBuffer> {
+        if let Some(viewport) = resources.get_mut::<Viewport>() {
+            viewport.draw(encoder, &self.frame);
+        }
+        Vec::new()
+    }
+
+    fn paint(
+        &self,
+        _info: PaintCallbackInfo,
+        pass: &mut egui_wgpu::wgpu::RenderPass<'static>,
+        resources: &CallbackResources,
+    ) {
+        if let Some(viewport) = resources.get::<Viewport>() {
+            viewport.present(pass);
+        }
+    }
+}

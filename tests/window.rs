@@ -1,0 +1,487 @@
+//! The window without a graphics adapter: its panels, found by the labels that a screen reader reads, against a model
+//! made up here.
+
+use egui::{Key, Modifiers, Rect, Vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT, Queryable};
+use lightwell::app::action::{Action, CameraMove};
+use lightwell::app::model::{Dialog, FrameTime, Look, Model, Notice, PathPurpose, SceneFacts, Theme};
+use lightwell::app::{panels, theme};
+use lightwell::math::rgb::Rgb64;
+use lightwell::methods::Settings;
+use lightwell::scene::{Finding, FindingKind, Severity};
+use lightwell::solution::{Closure, Counters, ElementLight, Energy, Solution};
+use lightwell::viewport::View;
+use lightwell::worker::{Command, Phase};
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// What a model borrows, and the wishes that came of it.
+struct Stage {
+    phase: Phase,
+    is_open: bool,
+    findings: Vec<Finding>,
+    solution: Option<Solution>,
+    settings: Settings,
+    error: Option<String>,
+    look: Look,
+    theme: Theme,
+    notices: Vec<Notice>,
+    dialog: Option<Dialog>,
+    recent: Vec<PathBuf>,
+    actions: Vec<Action>,
+}
+
+impl Default for Stage {
+    /// A scene is open, and some of its light is shot.
+    fn default() -> Self {
+        Self {
+            phase: Phase::Paused,
+            is_open: true,
+            findings: Vec::new(),
+            solution: Some(solution()),
+            settings: Settings::default(),
+            error: None,
+            look: Look::default(),
+            theme: Theme::Dark,
+            notices: Vec::new(),
+            dialog: None,
+            recent: vec![PathBuf::from("/scenes/attic.obj")],
+            actions: Vec::new(),
+        }
+    }
+}
+
+impl Stage {
+    /// Nothing is open.
+    fn empty() -> Self {
+        Self { phase: Phase::Empty, is_open: false, solution: None, ..Self::default() }
+    }
+
+    fn show(&mut self, ui: &mut egui::Ui) {
+        let facts = SceneFacts {
+            name: "cornell-box",
+            patches: 800,
+            elements: 12_752,
+            radius: 0.5,
+            element_size: 0.0156,
+            findings: &self.findings,
+        };
+        let model = Model {
+            phase: &self.phase,
+            scene: self.is_open.then_some(facts),
+            solution: self.solution.as_ref(),
+            settings: self.settings,
+            error: self.error.as_deref(),
+            look: self.look,
+            viewport_size: [952, 646],
+            exposure_ev: 1.3,
+            theme: self.theme,
+            recent: &self.recent,
+            notices: &self.notices,
+            dialog: self.dialog.as_ref(),
+            adapter: ADAPTER,
+            frame_time: FrameTime::default(),
+        };
+        panels::show(ui, &model, &mut self.actions, |_, _| {});
+    }
+
+    /// The window of this stage, after its layout has settled.
+    fn window(self, size: Vec2) -> Harness<'static, Self> {
+        let theme = self.theme;
+        let mut harness = Harness::builder()
+            .with_size(size)
+            .with_theme(theme)
+            .with_context_setup(theme::install)
+            .build_ui_state(|ui, stage: &mut Self| stage.show(ui), self);
+        harness.run();
+        harness.state_mut().actions.clear();
+        harness
+    }
+
+    fn small(self) -> Harness<'static, Self> {
+        self.window(SMALL)
+    }
+}
+
+/// The smallest that the window can be made.
+const SMALLEST: Vec2 = Vec2::new(960.0, 600.0);
+const SMALL: Vec2 = Vec2::new(1280.0, 800.0);
+const LARGE: Vec2 = Vec2::new(1920.0, 1080.0);
+
+const ADAPTER: &str = "llvmpipe (LLVM 15.0.6, 256 bits) (vulkan)";
+
+/// Height of the status line.
+const STATUS_LINE: f32 = 32.0;
+
+/// 10 W emitted, of which 6 W are absorbed, 3 W unshot and 1 W escaped.
+fn solution() -> Solution {
+    let watts = |red: f64| Rgb64::new(red, 0.0, 0.0);
+    Solution {
+        steps: 1_234,
+        elapsed: Duration::from_millis(2_500),
+        converged: false,
+        energy: Energy { emitted: watts(10.0), absorbed: watts(6.0), unshot: watts(3.0), escaped: watts(1.0) },
+        closure: Closure { mean: 0.0123, worst: 0.07 },
+        counters: Counters { rays: 31_000_000, ..Counters::default() },
+        shooter: None,
+        light: ElementLight::default(),
+    }
+}
+
+fn finding(kind: FindingKind, severity: Severity) -> Finding {
+    Finding {
+        severity,
+        kind,
+        subject: "object 'lamp', line 12".to_owned(),
+        problem: "the face has no area".to_owned(),
+        remedy: "left out".to_owned(),
+    }
+}
+
+/// What one key asks for.
+fn key(stage: Stage, modifiers: Modifiers, key: Key) -> Vec<Action> {
+    let mut harness = stage.small();
+    harness.key_press_modifiers(modifiers, key);
+    harness.run();
+    std::mem::take(&mut harness.state_mut().actions)
+}
+
+/// What a click on the control with this label asks for.
+fn click(stage: Stage, label: &str) -> Vec<Action> {
+    let mut harness = stage.small();
+    harness.get_by_label(label).click();
+    harness.run();
+    std::mem::take(&mut harness.state_mut().actions)
+}
+
+#[test]
+fn space_runs_and_pauses() {
+    assert_eq!(key(Stage::default(), Modifiers::NONE, Key::Space), [Action::Send(Command::Run)]);
+    let running = Stage { phase: Phase::Running, ..Stage::default() };
+    assert_eq!(key(running, Modifiers::NONE, Key::Space), [Action::Send(Command::Pause)]);
+    assert_eq!(key(Stage::empty(), Modifiers::NONE, Key::Space), []);
+}
+
+#[test]
+fn arrows_step() {
+    let step = |modifiers| key(Stage::default(), modifiers, Key::ArrowRight);
+    assert_eq!(step(Modifiers::NONE), [Action::Send(Command::Step(1))]);
+    assert_eq!(step(Modifiers::SHIFT), [Action::Send(Command::Step(10))]);
+    assert_eq!(step(Modifiers::COMMAND), [Action::Send(Command::Step(100))]);
+}
+
+#[test]
+fn letters_and_digits_do_what_the_help_says() {
+    let press = |pressed| key(Stage::default(), Modifiers::NONE, pressed);
+    assert_eq!(press(Key::R), [Action::Send(Command::Reset)]);
+    assert_eq!(press(Key::S), [Action::SavePictureNow]);
+    assert_eq!(press(Key::F), [Action::Camera(CameraMove::Fit)]);
+    let look = Look::default();
+    assert_eq!(press(Key::W), [Action::SetLook(Look { wireframe: true, ..look })]);
+    for (digit, view) in [Key::Num1, Key::Num2, Key::Num3].into_iter().zip(View::ALL) {
+        assert_eq!(press(digit), [Action::SetLook(Look { view, ..look })]);
+    }
+    assert_eq!(key(Stage::empty(), Modifiers::COMMAND, Key::O), [Action::BrowseForScene]);
+}
+
+#[test]
+fn a_held_key_toggles_once() {
+    let mut harness = Stage::default().small();
+    for repeat in [false, true, true] {
+        harness.event(egui::Event::Key {
+            key: Key::W,
+            physical_key: None,
+            pressed: true,
+            repeat,
+            modifiers: Modifiers::NONE,
+        });
+    }
+    harness.run();
+    assert_eq!(harness.state().actions.len(), 1);
+}
+
+#[test]
+fn keys_belong_to_a_field_while_it_is_edited() {
+    let mut harness = Stage::default().small();
+    harness.get_by_label("Seed").click();
+    harness.run();
+    for pressed in [Key::Space, Key::R, Key::W, Key::Num1, Key::ArrowRight] {
+        harness.key_press(pressed);
+    }
+    harness.run();
+    assert_eq!(harness.state().actions, []);
+}
+
+#[test]
+fn what_is_typed_with_the_enter_that_ends_it_stays_in_the_field() {
+    let purpose = PathPurpose::OpenScene;
+    let mut harness = Stage { dialog: Some(Dialog::Path { purpose, text: "a".into() }), ..Stage::default() }.small();
+    let key =
+        |key| egui::Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers: Modifiers::NONE };
+    let typed = [key(Key::O), egui::Event::Text("o".into()), key(Key::Enter)];
+    harness.input_mut().events.extend(typed);
+    harness.step();
+    let dialog = Dialog::Path { purpose, text: "ao".into() };
+    let opened = [Action::ShowDialog(dialog), Action::CloseDialog, Action::Open("ao".into())];
+    assert_eq!(harness.state().actions, opened);
+}
+
+#[test]
+fn files_are_dropped_on_the_viewport() {
+    #[derive(Debug)]
+    struct Dropped;
+    impl egui::DroppedFile for Dropped {
+        fn path(&self) -> &std::path::Path {
+            std::path::Path::new("/scenes/attic.obj")
+        }
+        fn bytes(&self) -> Result<Vec<u8>, String> {
+            Err("only its path is asked for".into())
+        }
+    }
+    let mut harness = Stage::default().small();
+    harness.input_mut().hovered_files.push(egui::HoveredFile::default());
+    harness.run_steps(2);
+    harness.get_by_label("Drop to open");
+    harness.input_mut().hovered_files.clear();
+    harness.input_mut().dropped_files.push(std::sync::Arc::new(Dropped));
+    harness.run();
+    assert_eq!(harness.state().actions, [Action::Open("/scenes/attic.obj".to_owned())]);
+    assert!(harness.query_by_label("Drop to open").is_none());
+}
+
+#[test]
+fn the_mouse_moves_the_camera() {
+    let mut harness = Stage::default().small();
+    let center = harness.get_by_label("Viewport").rect().center();
+    harness.drag_at(center);
+    harness.hover_at(center + Vec2::new(60.0, 0.0));
+    harness.run();
+    assert!(matches!(harness.state().actions[..], [Action::Camera(CameraMove::Orbit(drag))] if drag.x > 0.0));
+    harness.drop_at(center);
+    harness.hover_at(center);
+    harness.run();
+    harness.state_mut().actions.clear();
+    harness.event(egui::Event::MouseWheel {
+        unit: egui::MouseWheelUnit::Line,
+        delta: Vec2::new(0.0, 1.0),
+        phase: egui::TouchPhase::Move,
+        source: egui::MouseWheelSource::Wheel,
+        modifiers: Modifiers::NONE,
+    });
+    harness.run();
+    let zooms = |action: &Action| matches!(action, Action::Camera(CameraMove::Zoom(factor)) if *factor < 1.0);
+    assert!(!harness.state().actions.is_empty() && harness.state().actions.iter().all(zooms));
+}
+
+#[test]
+fn a_scene_that_is_read_is_named() {
+    let phase = Phase::Loading("attic.obj".to_owned());
+    let mut harness = Harness::builder()
+        .with_size(SMALL)
+        .with_context_setup(theme::install)
+        .build_ui_state(|ui, stage: &mut Stage| stage.show(ui), Stage { phase, ..Stage::empty() });
+    harness.step();
+    harness.get_by_label("Opening attic.obj");
+}
+
+#[test]
+fn the_transport_sends_commands() {
+    assert_eq!(click(Stage::default(), "Run"), [Action::Send(Command::Run)]);
+    assert_eq!(click(Stage::default(), "Step 1"), [Action::Send(Command::Step(1))]);
+    assert_eq!(click(Stage::default(), "Step 10"), [Action::Send(Command::Step(10))]);
+    assert_eq!(click(Stage::default(), "Step 100"), [Action::Send(Command::Step(100))]);
+    assert_eq!(click(Stage::default(), "Reset"), [Action::Send(Command::Reset)]);
+    let running = Stage { phase: Phase::Running, ..Stage::default() };
+    assert_eq!(click(running, "Pause"), [Action::Send(Command::Pause)]);
+}
+
+#[test]
+fn without_a_scene_there_is_nothing_to_run_but_something_to_open() {
+    assert_eq!(click(Stage::empty(), "Run"), []);
+    assert_eq!(click(Stage::empty(), "cornell-box"), [Action::Open("cornell-box".to_owned())]);
+    assert_eq!(click(Stage::empty(), "Open…"), [Action::BrowseForScene]);
+}
+
+#[test]
+fn the_view_bar_changes_the_look() {
+    let look = Look::default();
+    for view in View::ALL {
+        assert_eq!(click(Stage::default(), view.label()), [Action::SetLook(Look { view, ..look })]);
+    }
+    assert_eq!(click(Stage::default(), "Wireframe"), [Action::SetLook(Look { wireframe: true, ..look })]);
+    assert_eq!(click(Stage::default(), "Shooter"), [Action::SetLook(Look { show_shooter: false, ..look })]);
+}
+
+#[test]
+fn recent_files_and_built_in_scenes_open_from_the_menu() {
+    let mut harness = Stage::default().small();
+    harness.get_by_label("File").click();
+    harness.run();
+    harness.get_by_label("Recent files").click();
+    harness.run();
+    harness.get_by_label("attic.obj").click();
+    harness.run();
+    assert_eq!(harness.state().actions, [Action::Open("/scenes/attic.obj".to_owned())]);
+}
+
+#[test]
+fn the_ledger_shows_where_the_light_is() {
+    let harness = Stage::default().small();
+    let thin = |text: &str| text.replace('_', "\u{2009}");
+    for figure in ["10.0_W", "6.00_W", "60.0_%", "3.00_W", "30.0_%", "1.00_W", "10.0_%"] {
+        harness.get_by_label(&thin(figure));
+    }
+    harness.get_by_label("0 W, closes");
+    harness.get_by_label(&thin("Energy: Absorbed 60.0_%, Unshot 30.0_%, Escaped 10.0_%"));
+    harness.get_by_label(&thin("mean 1.23_%, worst 7.00_%"));
+}
+
+#[test]
+fn a_ledger_that_does_not_close_says_so() {
+    let mut leaking = solution();
+    leaking.energy.absorbed.x -= 0.03125;
+    let harness = Stage { solution: Some(leaking), ..Stage::default() }.small();
+    harness.get_by_label("3.1e−2 W, does not close");
+}
+
+#[test]
+fn the_status_line_counts() {
+    let harness = Stage::default().small();
+    let thin = |text: &str| text.replace('_', "\u{2009}");
+    for figure in ["800 patches", "12_752 elements", "1_234 shots", "12.4_Mrays/s", "2.50_s", "30.0_% unshot"] {
+        assert!(harness.query_all_by_label(&thin(figure)).next().is_some(), "{figure} is not shown");
+    }
+    harness.get_by_label(&thin("Progress: 30.0_% unshot"));
+}
+
+#[test]
+fn findings_are_listed_with_what_was_done() {
+    let findings = vec![finding(FindingKind::DegenerateFace, Severity::Warning)];
+    let harness = Stage { findings, ..Stage::default() }.small();
+    for text in ["Findings (1)", "object 'lamp', line 12", "the face has no area", "left out"] {
+        harness.get_by_label(text);
+    }
+    assert!(harness.query_by_label("Add a ceiling light").is_none());
+}
+
+#[test]
+fn a_dark_scene_is_offered_a_light_once() {
+    let dark = vec![finding(FindingKind::NoEmitter, Severity::Warning)];
+    let offered = click(Stage { findings: dark.clone(), ..Stage::default() }, "Add a ceiling light");
+    assert_eq!(offered, [Action::Send(Command::AddCeilingLight)]);
+    let mut lit = dark;
+    lit.push(finding(FindingKind::CeilingLightAdded, Severity::Note));
+    let harness = Stage { findings: lit, ..Stage::default() }.small();
+    assert!(harness.query_by_label("Add a ceiling light").is_none());
+}
+
+#[test]
+fn a_crash_is_told_and_can_be_mended() {
+    let error = Some("the solver stopped: index out of bounds".to_owned());
+    let crashed = Stage { phase: Phase::Crashed, error, ..Stage::default() };
+    assert_eq!(click(crashed, "Restart solver"), [Action::Send(Command::Reset)]);
+    let error = Some("cannot read attic.obj".to_owned());
+    assert_eq!(click(Stage { error, ..Stage::default() }, "Dismiss"), [Action::DismissError]);
+}
+
+#[test]
+fn notices_can_be_dismissed() {
+    let notice = Notice { id: 7, text: "Saved a.png".to_owned(), is_error: false, until: None };
+    let actions = click(Stage { notices: vec![notice], ..Stage::default() }, "Dismiss message");
+    assert_eq!(actions, [Action::DismissNotice(7)]);
+}
+
+#[test]
+fn settings_take_effect_when_a_value_is_given() {
+    let mut harness = Stage::default().small();
+    harness.get_by_label("Automatic mesh").click();
+    harness.run();
+    let mut settings = Settings::default();
+    settings.mesh.element_size = Some(0.0156);
+    assert_eq!(harness.state().actions, [Action::ApplySettings(settings)]);
+}
+
+#[test]
+fn a_slider_is_applied_when_it_is_let_go() {
+    let mut harness = Stage::default().small();
+    let rail =
+        harness.get_all_by_label("Shadow rays").map(|node| node.rect()).max_by(|a, b| a.width().total_cmp(&b.width()));
+    let at = rail.expect("the slider has a rail").center();
+    harness.drag_at(at);
+    harness.step();
+    assert!(matches!(harness.state().actions.last(), Some(Action::EditSettings(_))), "{:?}", harness.state().actions);
+    harness.drop_at(at);
+    harness.step();
+    assert!(matches!(harness.state().actions.last(), Some(Action::ApplySettings(_))), "{:?}", harness.state().actions);
+}
+
+#[test]
+fn nothing_is_asked_for_while_nobody_does_anything() {
+    for stage in [Stage::default(), Stage::empty()] {
+        let mut harness = stage.small();
+        harness.run();
+        assert_eq!(harness.state().actions, []);
+    }
+}
+
+/// The widest figures that can come up: watts of a large scene, many rays, a long run.
+fn crowded() -> Stage {
+    let mut solution = solution();
+    solution.steps = 1_234_567;
+    solution.elapsed = Duration::from_secs(7_500);
+    solution.counters.rays = 987_654_321_012;
+    let findings = vec![finding(FindingKind::DegenerateFace, Severity::Warning); 20];
+    let error = Some("cannot read a scene with a long name in a folder with an even longer name: no such file".into());
+    let notices =
+        vec![Notice { id: 0, text: "Saved lightwell-cornell-box-1.png".into(), is_error: false, until: None }];
+    Stage { solution: Some(solution), findings, error, notices, ..Stage::default() }
+}
+
+/// Every text on show and where it is, without the part of the side panel that has to be scrolled to.
+fn texts(harness: &Harness<Stage>, size: Vec2) -> Vec<(String, Rect)> {
+    let nodes = harness.root().children_recursive();
+    let text = |node: egui_kittest::Node| {
+        let accesskit_node = node.accesskit_node();
+        let bounds = accesskit_node.bounding_box()?;
+        let min = egui::pos2(bounds.x0 as f32, bounds.y0 as f32);
+        let rect = Rect::from_min_max(min, egui::pos2(bounds.x1 as f32, bounds.y1 as f32));
+        let is_label = accesskit_node.role() == egui::accesskit::Role::Label;
+        let text = accesskit_node.value().filter(|text| is_label && !text.is_empty())?;
+        let is_in_side_panel = min.x > size.x - 320.0 && min.y > 80.0 && text != ADAPTER;
+        let is_scrolled_away = is_in_side_panel && rect.bottom() > size.y - STATUS_LINE;
+        (!is_scrolled_away).then_some((text, rect))
+    };
+    nodes.filter_map(text).collect()
+}
+
+#[test]
+fn texts_lie_inside_the_window_and_apart_from_each_other() {
+    for size in [SMALLEST, SMALL, LARGE] {
+        for stage in [crowded(), Stage::default(), Stage::empty()] {
+            let harness = stage.window(size);
+            let screen = Rect::from_min_size(egui::Pos2::ZERO, size);
+            let texts = texts(&harness, size);
+            assert!(texts.len() > 10, "only {} texts were found", texts.len());
+            for (i, (text, rect)) in texts.iter().enumerate() {
+                assert!(screen.contains_rect(*rect), "`{text}` lies at {rect:?} of {size}");
+                for (other, other_rect) in &texts[..i] {
+                    let shared = rect.intersect(*other_rect);
+                    let overlaps = shared.width() > 1.0 && shared.height() > 1.0;
+                    assert!(!overlaps, "`{text}` at {rect:?} covers `{other}` at {other_rect:?} in {size}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn dialogs_open_and_answer() {
+    let about = Stage { dialog: Some(Dialog::About), ..Stage::default() };
+    assert_eq!(click(about, "Close"), [Action::CloseDialog]);
+    let keys = Stage { dialog: Some(Dialog::Keys), ..Stage::default() }.small();
+    keys.get_by_label("Run or pause");
+    let purpose = PathPurpose::OpenScene;
+    let path = Stage { dialog: Some(Dialog::Path { purpose, text: "a.obj".into() }), ..Stage::default() };
+    assert_eq!(click(path, "Open"), [Action::CloseDialog, Action::Open("a.obj".into())]);
+}
