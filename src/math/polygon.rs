@@ -169,7 +169,7 @@ mod tests {
             let got = angle(2.0 * exact.sin(), 2.0 * exact.cos());
             assert!((got / exact - 1.0).abs() < 1e-12, "{exact}: {got}");
         }
-        assert_eq!((angle(0.0, 1.0), angle(0.0, -1.0)), (0.0, std::f64::consts::PI));
+        assert_eq!((angle(0.0, 1.0), angle(0.0, -1.0)), (0.0, PI));
     }
 
     #[test]

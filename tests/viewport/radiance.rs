@@ -126,7 +126,7 @@ fn pictures_do_not_depend_on_the_size_of_the_scene_or_its_distance_from_the_orig
 fn bright_and_dark_light_both_fit_into_the_picture() {
     let Some(gpu) = gpu() else { return };
     let world = square();
-    let bright = |element: usize| if element % 2 == 0 { 4e9 } else { 4e3 };
+    let bright = |element: usize| if element.is_multiple_of(2) { 4e9 } else { 4e3 };
     let solution = solution(&world, |element| Rgb::splat(bright(element)));
     let picture = render_picture(&gpu, &world, &solution, &frame(&world, View::Patches), 4).expect("a picture");
     for (x, y) in pixels() {
