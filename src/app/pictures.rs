@@ -64,7 +64,8 @@ impl Pictures {
 }
 
 fn save(gpu: &Gpu, job: &Job) -> Result<PathBuf, String> {
-    let picture = render_picture(gpu, &job.world, &job.solution, &job.frame, job.samples).map_err(|error| with_causes(&error))?;
+    let picture =
+        render_picture(gpu, &job.world, &job.solution, &job.frame, job.samples).map_err(|error| with_causes(&error))?;
     let path = match &job.destination {
         Destination::File(path) => path.clone(),
         Destination::Free(format) => free_path(&pictures_folder(), &job.world.scene.name, extension(*format)),

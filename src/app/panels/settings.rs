@@ -42,7 +42,14 @@ fn shadow_rays(ui: &mut Ui, mut settings: Settings, actions: &mut Vec<Action>) {
     let hover = "Rays from each receiving point to the shooter, which find out how much of it is in sight";
     let response = labelled(ui, "Shadow rays", hover, |ui| {
         let rays = &mut settings.shadow_rays;
-        slider(ui, rays, 1..=Settings::MAX_SHADOW_RAYS, true, |rays| format::count(rays as u64), |text| format::parse(text, ""))
+        slider(
+            ui,
+            rays,
+            1..=Settings::MAX_SHADOW_RAYS,
+            true,
+            |rays| format::count(rays as u64),
+            |text| format::parse(text, ""),
+        )
     });
     apply_when_done(&response, settings, actions);
 }
