@@ -173,21 +173,24 @@ impl Shear {
         Self { axes, factors: [direction[axes[0]] * scale, direction[axes[1]] * scale, scale] }
     }
 
+    /// A corner in the space where the ray starts at the origin and runs along z.
+    #[inline(always)]
+    fn apply(&self, corner: &[f32; 3], ray: &FrameRay) -> [f32; 3] {
+        let [x, y, z] = self.axes;
+        let depth = corner[z] - ray.origin[z];
+        let across = corner[x] - ray.origin[x] - self.factors[0] * depth;
+        let along = corner[y] - ray.origin[y] - self.factors[1] * depth;
+        [across, along, self.factors[2] * depth]
+    }
+
     /// Distance along the ray within its limits, or infinity. In the sheared plane a triangle is hit where its three
     /// edge functions agree in sign. Both triangles at an edge compute the same value for it, and a rounded difference
     /// of two products has the right sign or is 0; since 0 agrees with either sign, there is no gap, and the original's
     /// second try in double precision, which decides which of the two triangles is hit, is not needed.
     #[inline(always)]
     fn intersect(&self, triangle: &Triangle, ray: &FrameRay) -> f32 {
-        let [x, y, z] = self.axes;
-        let origin = ray.origin.to_array();
-        let sheared = triangle.0.map(|corner| {
-            let depth = corner[z] - origin[z];
-            let across = corner[x] - origin[x] - self.factors[0] * depth;
-            let along = corner[y] - origin[y] - self.factors[1] * depth;
-            [across, along, self.factors[2] * depth]
-        });
-        let [a, b, c] = sheared;
+        let [a, b, c] = &triangle.0;
+        let (a, b, c) = (self.apply(a, ray), self.apply(b, ray), self.apply(c, ray));
         let u = c[0] * b[1] - c[1] * b[0];
         let v = a[0] * c[1] - a[1] * c[0];
         let w = b[0] * a[1] - b[1] * a[0];

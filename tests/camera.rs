@@ -39,7 +39,7 @@ fn a_camera_stands_where_its_viewpoint_says() {
 }
 
 #[test]
-fn orbiting_keeps_the_distance_and_never_passes_a_pole() {
+fn orbiting_keeps_the_distance_and_the_horizon() {
     let mut camera = camera();
     let before = distance(&camera);
     for step in 0..200 {
@@ -48,6 +48,18 @@ fn orbiting_keeps_the_distance_and_never_passes_a_pole() {
         let above = project(&camera, 1.0, VIEWPOINT.target.as_dvec3() + 0.01 * DVec3::Y);
         assert!(above.y > 0.0, "up is down after {step} steps");
         assert!(camera.clip_from_world(1.0).is_finite());
+    }
+}
+
+#[test]
+fn a_long_drag_up_or_down_ends_before_the_pole() {
+    for dy in [9.0, -9.0] {
+        let mut camera = camera();
+        let offset = |camera: &Camera| (camera.eye() - VIEWPOINT.target.as_dvec3()).with_y(0.0);
+        let before = offset(&camera);
+        camera.orbit(0.0, dy);
+        let after = offset(&camera);
+        assert!(after.length() > 0.0 && after.angle_between(before) < 1e-6, "{after} is on the other side of {before}");
     }
 }
 

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 
 /// The top modules of each layer; `lib` and `main` are the two crate roots.
 const LAYERS: [&[&str]; 8] = [
-    &["math", "cancel"],
+    &["math", "cancel", "errors"],
     &["scene", "mesh", "tracer", "world"],
     &["effects", "solution"],
     &["methods"],

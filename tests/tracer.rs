@@ -3,11 +3,11 @@
 #[path = "common/shapes.rs"]
 mod shapes;
 
-use shapes::{Triangles, cube, placed, sphere};
 use glam::{Vec3, Vec3A};
 use lightwell::math::random::Stream;
 use lightwell::math::warp::{cosine_hemisphere, frame};
 use lightwell::tracer::{Ray, Tracer};
+use shapes::{Triangles, cube, placed, sphere};
 
 const SCALES: [f32; 3] = [1e-6, 1.0, 1e6];
 

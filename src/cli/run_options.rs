@@ -33,7 +33,7 @@ pub struct RunOptions {
     /// Stop when at most this share of the emitted flux is unshot [default: 0.1]
     #[arg(long, value_name = "PERCENT", group = "stop", value_parser = values::percent)]
     converge: Option<f64>,
-    /// Visibility rays from a receiver to the brightest shooter
+    /// Visibility rays of a receiver for all the light that is expected there
     #[arg(long, value_name = "N", default_value_t = Settings::default().shadow_rays,
           value_parser = clap::value_parser!(u32).range(1..=i64::from(Settings::MAX_SHADOW_RAYS)))]
     shadow_rays: u32,
@@ -83,7 +83,8 @@ impl RunOptions {
         }
         let mut solution = run.solution();
         // However it ended, this says whether it would have ended by itself.
-        solution.converged = solution.energy.unshot_share() <= Settings::default().unshot_limit.max(settings.unshot_limit);
+        solution.converged =
+            solution.energy.unshot_share() <= Settings::default().unshot_limit.max(settings.unshot_limit);
         Ok(Solved { world, settings, solution })
     }
 }

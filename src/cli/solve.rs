@@ -73,6 +73,9 @@ fn text(solved: &Solved) -> String {
     text += &row("unshot", total(energy.unshot));
     text += &row("escaped", total(energy.escaped));
     text += &format!("  {:<10} {:>14.1e} W\n", "defect", total(energy.defect()));
-    text += &format!("  closure of form factors: mean {:.2e}, worst {:.2e}\n", solution.closure.mean, solution.closure.worst);
+    text += &format!(
+        "  closure of form factors: mean {:.2e}, worst {:.2e}\n",
+        solution.closure.mean, solution.closure.worst
+    );
     text
 }

@@ -14,7 +14,8 @@ pub fn vector(text: &str) -> Result<Vec3, String> {
 
 /// `640x480`
 pub fn size(text: &str) -> Result<[u32; 2], String> {
-    let sides = text.split_once(['x', 'X']).and_then(|(width, height)| Some([width.parse().ok()?, height.parse().ok()?]));
+    let sides =
+        text.split_once(['x', 'X']).and_then(|(width, height)| Some([width.parse().ok()?, height.parse().ok()?]));
     sides.filter(|sides| sides.iter().all(|&side| side > 0)).ok_or_else(|| "a size is wanted, as in 640x480".to_owned())
 }
 
@@ -26,7 +27,10 @@ pub fn positive(text: &str) -> Result<f64, String> {
 
 /// A share in percent, above 0 and at most 100.
 pub fn percent(text: &str) -> Result<f64, String> {
-    positive(text).ok().filter(|&percent| percent <= 100.0).ok_or_else(|| "a number above 0 and up to 100 is wanted".to_owned())
+    positive(text)
+        .ok()
+        .filter(|&percent| percent <= 100.0)
+        .ok_or_else(|| "a number above 0 and up to 100 is wanted".to_owned())
 }
 
 /// An angle of view in degrees.

@@ -33,13 +33,31 @@ pub fn form_factor(point: DVec3, normal: DVec3, corners: &[DVec3]) -> f64 {
         let sine = axis.length();
         // An edge that points at the receiver spans no angle.
         if sine > 0.0 {
-            sum += sine.atan2(from.dot(to)) * normal.dot(axis) / sine;
+            sum += angle(sine, from.dot(to)) * normal.dot(axis) / sine;
         }
         from = to;
     }
     // Seen from the front the corners run counter-clockwise, so each axis points away from the normal's side.
     (-sum / TAU).clamp(0.0, 1.0)
 }
+
+/// The angle in [0, π] with this sine and cosine, both times the same positive number.
+///
+/// Most receivers see an edge under a small angle, for which nine terms of the series of the arc tangent are faster and as
+/// good: the first that is left out is below 0.25^18 / 19 = 8e-13 of the sum.
+fn angle(sine: f64, cosine: f64) -> f64 {
+    if sine > 0.25 * cosine {
+        return sine.atan2(cosine);
+    }
+    let tangent = sine / cosine;
+    let square = tangent * tangent;
+    let series = ARC_TANGENT.iter().rev().fold(0.0, |sum, term| term + square * sum);
+    tangent * series
+}
+
+/// Coefficients of x, x³, x⁵ … of the arc tangent.
+const ARC_TANGENT: [f64; 9] =
+    [1.0, -1.0 / 3.0, 1.0 / 5.0, -1.0 / 7.0, 1.0 / 9.0, -1.0 / 11.0, 1.0 / 13.0, -1.0 / 15.0, 1.0 / 17.0];
 
 /// Copies the part of a convex polygon above the plane through `point` into `clipped`, relative to `point`, and
 /// returns its number of corners (Sutherland, Hodgman 1974; one plane adds at most one corner).
@@ -142,6 +160,16 @@ mod tests {
             })
             .sum();
         assert!((sum - 1.0).abs() < 1e-14, "{sum}");
+    }
+
+    #[test]
+    fn small_angles_agree_with_the_arc_tangent() {
+        for i in 1..1000 {
+            let exact = 0.3 * f64::from(i) / 1000.0;
+            let got = angle(2.0 * exact.sin(), 2.0 * exact.cos());
+            assert!((got / exact - 1.0).abs() < 1e-12, "{exact}: {got}");
+        }
+        assert_eq!((angle(0.0, 1.0), angle(0.0, -1.0)), (0.0, PI));
     }
 
     #[test]

@@ -166,7 +166,11 @@ fn triangle_cell(n: u32, index: u32) -> [DVec2; 3] {
     }
     let in_row = index - row * (2 * n - row);
     let low = DVec2::new(f64::from(in_row / 2), f64::from(row));
-    if in_row % 2 == 0 { [low, low + DVec2::X, low + DVec2::Y] } else { [low + DVec2::ONE, low + DVec2::Y, low + DVec2::X] }
+    if in_row.is_multiple_of(2) {
+        [low, low + DVec2::X, low + DVec2::Y]
+    } else {
+        [low + DVec2::ONE, low + DVec2::Y, low + DVec2::X]
+    }
 }
 
 fn triangle_cell_at(n: u32, at: DVec2) -> u32 {

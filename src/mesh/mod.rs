@@ -2,11 +2,13 @@
 
 mod grid;
 mod locate;
+mod region;
 mod smooth;
 mod subdivide;
 
 pub use grid::{Grid, Shape};
 pub use locate::Location;
+pub use region::Region;
 pub use subdivide::{element_size_for, estimated_elements, subdivide};
 
 use glam::{Vec3, Vec3A};
@@ -61,6 +63,11 @@ impl Patch {
     pub fn corners(&self) -> &[Vec3] {
         &self.corners[..self.corner_count as usize]
     }
+
+    /// The region that the patch covers.
+    pub fn region(&self) -> Region {
+        Region::new(self.corners.map(Vec3A::from), self.corner_count as usize)
+    }
 }
 
 /// The smallest piece, with one irradiance.
@@ -85,9 +92,10 @@ impl Element {
 }
 
 impl Mesh {
-    /// Corner positions of an element, padded to four by repeating the last one; and how many of them count.
-    pub fn element_corners(&self, element: &Element) -> ([Vec3; 4], usize) {
-        (element.corners.map(|corner| self.vertices[corner as usize]), element.corner_count as usize)
+    /// The region that an element covers.
+    pub fn region(&self, element: &Element) -> Region {
+        let corner = |i: usize| Vec3A::from(self.vertices[element.corners[i] as usize]);
+        Region::new([corner(0), corner(1), corner(2), corner(3)], element.corner_count as usize)
     }
 
     /// States how much of each element is exposed, in [0, 1] and in the order of the elements.

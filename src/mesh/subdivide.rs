@@ -10,9 +10,18 @@ use std::collections::HashMap;
 /// Sides that meet at a sharper angle than this show a crease. cos 30°
 const CREASE_COSINE: f32 = 0.866;
 
-/// The element size, m, at which sides with this total area have about as many elements as wanted.
-pub fn element_size_for(area: f64, elements: f64) -> f64 {
-    (area / elements).sqrt()
+/// The element size, m, at which the mesh has about as many elements as wanted, or the nearest to it: there is at least
+/// one for each side.
+pub fn element_size_for(scene: &Scene, is_meshed: &[bool], area: f64, wanted: f64) -> f64 {
+    let mut size = (area / wanted).sqrt();
+    // Triangles and the rounding up to whole cells make more elements than the area alone says; a few corrections settle.
+    for _ in 0..4 {
+        let ratio = estimated_elements(scene, is_meshed, size) / wanted;
+        if ratio > 1.05 {
+            size *= ratio.sqrt();
+        }
+    }
+    size
 }
 
 /// How many elements the mesh would have; costs next to nothing.

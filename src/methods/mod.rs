@@ -35,15 +35,15 @@ pub struct Settings {
     pub mesh: MeshSettings,
     /// Stop when at most this share of the emitted flux is unshot.
     pub unshot_limit: f64,
-    /// Visibility rays from a receiver to the shooter with the most flux. Others get fewer, in proportion to theirs:
-    /// for a given number of rays in all this keeps the noise of the sum lowest.
+    /// Visibility rays of a receiver for all the irradiance that is expected there. A shot that may bring a part of it
+    /// gets that part of the rays, but at least [`Settings::MIN_SHADOW_RAYS`].
     pub shadow_rays: u32,
     /// Every random number comes from this.
     pub seed: u64,
 }
 
 impl Settings {
-    /// The fewest visibility rays of any pair, unless [`Settings::shadow_rays`] is lower.
+    /// The fewest visibility rays from a receiver to a shooter, unless [`Settings::shadow_rays`] is lower.
     pub const MIN_SHADOW_RAYS: u32 = 4;
     pub const MAX_SHADOW_RAYS: u32 = 1024;
 }

@@ -191,7 +191,8 @@ impl Checker {
         let count = self.vertices.len();
         let from_zero = if index > 0 { index - 1 } else { index + count as i64 };
         match usize::try_from(from_zero) {
-            Ok(corner) if index != 0 && corner < count => Ok(corner),
+            // Index 0, which the format does not know, falls behind the last vertex.
+            Ok(corner) if corner < count => Ok(corner),
             _ => {
                 let problem = format!("vertex {index} does not exist ({count} vertices stand above this line)");
                 Err((FindingKind::IndexOutOfRange, problem))

@@ -4,7 +4,6 @@
 
 use earcut::Earcut;
 use glam::{DVec3, Vec3};
-use std::collections::HashMap;
 
 /// How far the corners of a quad may be apart along its normal, in units of its largest coordinate.
 ///
@@ -45,8 +44,8 @@ pub fn without_repeated_corners(corners: &[u32]) -> Vec<u32> {
 /// Cuts a face and hands each piece (indices of three or four positions) to `emit`.
 ///
 /// A triangle, and a quad that is planar and convex, stay whole. Another quad is cut along the diagonal that leaves
-/// the larger smallest piece. A face of more corners is projected along its normal (Newell's, from Sutherland, Sproull,
-/// Schumacker 1974) and triangulated by ear clipping.
+/// the larger smallest piece. A face of more corners is triangulated by ear clipping. Its normal is Newell's
+/// (Sutherland, Sproull, Schumacker 1974).
 pub fn polygonize(positions: &[Vec3], corners: &[u32], emit: &mut impl FnMut(&[u32])) -> Shape {
     let Some(face) = Face::new(positions, corners) else { return Shape::Degenerate };
     let shape = face.shape();
@@ -70,12 +69,15 @@ pub fn polygonize(positions: &[Vec3], corners: &[u32], emit: &mut impl FnMut(&[u
     if (covered - face.area).abs() > 1e-3 * face.area { Shape::Crossed } else { shape }
 }
 
-/// A face in its own frame: the first corner at the origin, the farthest one from it at distance 1.
+/// A face with its first corner at the origin. Differences of single-precision coordinates are exact in double precision
+/// (unless they differ by a factor of 2²⁹), so nothing about it is rounded yet.
 struct Face {
     points: Vec<DVec3>,
     normal: DVec3,
     area: f64,
-    /// Largest coordinate of the face in this frame's unit of length.
+    /// Distance of the farthest corner from the first one.
+    size: f64,
+    /// Largest coordinate in the scene's frame.
     largest_coordinate: f64,
 }
 
@@ -85,19 +87,13 @@ impl Face {
         let mut points: Vec<DVec3> = corners.iter().map(|&corner| positions[corner as usize].as_dvec3()).collect();
         let largest_coordinate = points.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
         let origin = *points.first()?;
-        let size = points.iter().map(|p| p.distance(origin)).fold(0.0, f64::max);
-        if size == 0.0 {
-            return None;
-        }
-        for point in &mut points {
-            *point = (*point - origin) / size;
-        }
+        points.iter_mut().for_each(|point| *point -= origin);
         let double_area: DVec3 = edges(&points).map(|(from, to)| from.cross(to)).sum();
-        let longest = edges(&points).map(|(from, to)| from.distance_squared(to)).fold(0.0, f64::max);
-        (double_area.length() > DEGENERATE * longest).then(|| Self {
+        (double_area.length() > DEGENERATE * longest_edge_squared(&points)).then(|| Self {
             normal: double_area.normalize(),
             area: 0.5 * double_area.length(),
-            largest_coordinate: largest_coordinate / size,
+            size: points.iter().map(|p| p.length()).fold(0.0, f64::max),
+            largest_coordinate,
             points,
         })
     }
@@ -106,7 +102,7 @@ impl Face {
         let heights = self.points.iter().map(|p| p.dot(self.normal));
         let (low, high) = heights.fold((0.0, 0.0), |(low, high): (f64, f64), h| (low.min(h), high.max(h)));
         let is_planar = high - low <= PLANARITY * self.largest_coordinate;
-        if is_planar { Shape::Planar } else { Shape::Warped(high - low) }
+        if is_planar { Shape::Planar } else { Shape::Warped((high - low) / self.size) }
     }
 
     fn is_convex_quad(&self) -> bool {
@@ -126,20 +122,15 @@ impl Face {
         best.to_vec()
     }
 
+    /// Triangulates the face as it is seen along the axis nearest to its normal. This rounds nothing, so corners in the
+    /// middle of a straight edge stay exactly there, and none is left out.
     fn clip_ears(&self) -> Vec<[usize; 3]> {
-        let (x, y) = self.normal.any_orthonormal_pair();
-        let outline = self.points.iter().map(|p| [p.dot(x), p.dot(y)]);
-        let mut indices: Vec<u32> = Vec::new();
-        Earcut::new().earcut(outline, &[], &mut indices);
-        let mut triangles: Vec<[usize; 3]> =
-            indices.chunks_exact(3).map(|t| [t[0] as usize, t[1] as usize, t[2] as usize]).collect();
-        for triangle in &mut triangles {
-            if self.signed_area(*triangle) < 0.0 {
-                triangle.swap(1, 2);
-            }
-        }
-        restore_straight_corners(self.points.len(), &mut triangles);
-        triangles
+        let axis = self.normal.abs().max_position();
+        let (x, y) = ((axis + 1) % 3, (axis + 2) % 3);
+        let (x, y) = if self.normal[axis] > 0.0 { (x, y) } else { (y, x) };
+        let mut corners: Vec<u32> = Vec::new();
+        Earcut::new().earcut(self.points.iter().map(|p| [p[x], p[y]]), &[], &mut corners);
+        corners.chunks_exact(3).map(|t| [t[0] as usize, t[1] as usize, t[2] as usize]).collect()
     }
 
     /// Area seen against the face's normal; negative where the triangle winds the other way.
@@ -151,8 +142,7 @@ impl Face {
     fn is_sliver(&self, [a, b, c]: [usize; 3]) -> bool {
         let corners = [self.points[a], self.points[b], self.points[c]];
         let double_area = (corners[1] - corners[0]).cross(corners[2] - corners[0]).length();
-        let longest = edges(&corners).map(|(from, to)| from.distance_squared(to)).fold(0.0, f64::max);
-        double_area <= DEGENERATE * longest
+        double_area <= DEGENERATE * longest_edge_squared(&corners)
     }
 }
 
@@ -161,28 +151,6 @@ fn edges(points: &[DVec3]) -> impl Iterator<Item = (DVec3, DVec3)> + '_ {
     points.iter().copied().zip(points.iter().copied().cycle().skip(1))
 }
 
-/// Ear clipping leaves out corners in the middle of a straight edge. A neighbour that uses such a corner would then meet
-/// this face without sharing an edge with it, and light could leak between them; so the triangle behind that edge is
-/// split at the corner.
-fn restore_straight_corners(corner_count: usize, triangles: &mut Vec<[usize; 3]>) {
-    let mut is_used = vec![false; corner_count];
-    let mut behind_edge = HashMap::new();
-    for (place, &[a, b, c]) in triangles.iter().enumerate() {
-        for (from, to) in [(a, b), (b, c), (c, a)] {
-            is_used[from] = true;
-            behind_edge.insert((from, to), place);
-        }
-    }
-    let used: Vec<usize> = (0..corner_count).filter(|&corner| is_used[corner]).collect();
-    for (&from, &to) in used.iter().zip(used.iter().cycle().skip(1)) {
-        let left_out = (to + corner_count - from) % corner_count - 1;
-        let Some(&place) = behind_edge.get(&(from, to)).filter(|_| left_out > 0) else { continue };
-        let Some(apex) = triangles[place].into_iter().find(|&corner| corner != from && corner != to) else { continue };
-        let along = |step: usize| (from + step) % corner_count;
-        triangles[place] = [from, along(1), apex];
-        for step in 1..=left_out {
-            triangles.push([along(step), along(step + 1), apex]);
-        }
-        behind_edge.insert((to, apex), triangles.len() - 1);
-    }
+fn longest_edge_squared(points: &[DVec3]) -> f64 {
+    edges(points).map(|(from, to)| from.distance_squared(to)).fold(0.0, f64::max)
 }

@@ -32,14 +32,14 @@ impl Exposure {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ToneCurve {
     /// Values up to 1 as they are; what is brighter is white.
+    #[default]
     Linear,
     /// A film's shoulder and toe: Narkowicz's fit (2016) of the reference curve of the Academy Color Encoding System.
-    #[default]
     Filmic,
 }
 
 impl ToneCurve {
-    pub const ALL: [Self; 2] = [Self::Filmic, Self::Linear];
+    pub const ALL: [Self; 2] = [Self::Linear, Self::Filmic];
 
     /// For people.
     pub fn label(self) -> &'static str {

@@ -74,7 +74,10 @@ impl Gpu {
     /// # Errors
     /// If there is no adapter, none that matches, or it does not open.
     pub fn new(choice: &AdapterChoice) -> Result<Self, GpuError> {
-        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
+        // Only what is asked for below: OpenGL would look for a display and complain.
+        let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
+        descriptor.backends &= wgpu::Backends::PRIMARY;
+        let instance = wgpu::Instance::new(descriptor);
         let adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::PRIMARY));
         let infos: Vec<_> = adapters.iter().map(wgpu::Adapter::get_info).collect();
         let chosen = choose_adapter(&infos, choice)?;

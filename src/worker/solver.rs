@@ -76,7 +76,8 @@ impl Solver {
     }
 
     fn build(&self, scene: Scene) -> Result<World, String> {
-        World::build(scene, &self.snapshot.settings.mesh, self.mailbox.load_cancel()).map_err(|error| with_causes(&error))
+        World::build(scene, &self.snapshot.settings.mesh, self.mailbox.load_cancel())
+            .map_err(|error| with_causes(&error))
     }
 
     fn configure(&mut self, settings: Settings) {

@@ -68,7 +68,8 @@ pub fn move_off_walls(scene: &mut Scene) -> Vec<Finding> {
     let mut findings = Vec::new();
     for front in emitting_sides(scene) {
         let polygon = front / 2;
-        let Some(wall) = (0..surfaces.len()).find(|&other| covers(&surfaces, other, polygon, SAME_PLANE * radius)) else {
+        let Some(wall) = (0..surfaces.len()).find(|&other| covers(&surfaces, other, polygon, SAME_PLANE * radius))
+        else {
             continue;
         };
         let step = Vec3::from(surfaces.normal(front)) * (STEP * radius);

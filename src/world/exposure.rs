@@ -6,7 +6,7 @@
 
 use crate::mesh::{Element, Mesh};
 use crate::tracer::{Ray, Tracer};
-use glam::Vec3A;
+use glam::{Vec2, Vec3A};
 use rayon::prelude::*;
 
 /// An element whose first five points do not agree is looked at through a grid of this many points across.
@@ -31,26 +31,15 @@ pub fn shares(mesh: &Mesh, tracer: &Tracer) -> Vec<f32> {
 
 fn share(mesh: &Mesh, tracer: &Tracer, element: &Element) -> f32 {
     let normal = mesh.patches[element.patch as usize].normal;
-    let (corners, count) = mesh.element_corners(element);
-    let corners = corners.map(Vec3A::from);
+    let region = mesh.region(element);
+    let corners = region.corners();
     let is_exposed = |point: Vec3A| !is_covered(mesh, tracer, tracer.lift(point, normal), normal);
-    let inset = corners[..count].iter().map(|corner| corner.lerp(element.center, INSET));
+    let inset = corners.iter().map(|corner| corner.lerp(element.center, INSET));
     let first = inset.chain([element.center]).filter(|&point| is_exposed(point)).count();
-    if first == 0 || first == count + 1 {
+    if first == 0 || first == corners.len() + 1 {
         return if first == 0 { 0.0 } else { 1.0 };
     }
-    let points = grid(&corners, count);
-    points.iter().filter(|&&point| is_exposed(point)).count() as f32 / points.len() as f32
-}
-
-/// The centres of equal cells that tile a triangle or quad.
-fn grid([a, b, c, d]: &[Vec3A; 4], count: usize) -> Vec<Vec3A> {
     let at = |i: u32| (i as f32 + 0.5) / GRID as f32;
-    let cells = (0..GRID).flat_map(|i| (0..GRID).map(move |j| (at(i), at(j))));
-    if count == 3 {
-        let upright = cells.map(|(u, v)| if u + v < 1.0 { (u, v) } else { (1.0 - u, 1.0 - v) });
-        upright.map(|(u, v)| *a + u * (*b - *a) + v * (*c - *a)).collect()
-    } else {
-        cells.map(|(u, v)| a.lerp(*b, u).lerp(d.lerp(*c, u), v)).collect()
-    }
+    let cells = (0..GRID).flat_map(|i| (0..GRID).map(move |j| Vec2::new(at(i), at(j))));
+    cells.filter(|&cell| is_exposed(region.point(cell))).count() as f32 / (GRID * GRID) as f32
 }

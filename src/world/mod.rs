@@ -20,6 +20,9 @@ use surface::Surfaces;
 /// Surfaces that are nearer to each other than this share of the scene's radius touch: no light gets between them.
 const TOUCHING: f32 = 4e-4;
 
+/// Where an automatic mesh must be finer than usual, because the scene has many polygons.
+const ELEMENTS_PER_POLYGON: f64 = 4.0;
+
 /// A scene, its mesh and its tracer.
 pub struct World {
     /// The scene as mended: emitters may have been turned or moved, and its findings say so.
@@ -45,7 +48,10 @@ pub enum WorldError {
     Cancelled,
     #[error("an element size of {0} m cannot be used: it must be a number above 0")]
     ElementSize(f32),
-    #[error("elements of {size:.1e} m would be {elements:.1e} in number; at most {:.0e} fit", MeshSettings::MAX_ELEMENTS)]
+    #[error(
+        "elements of {size:.1e} m would be {elements:.1e} in number; at most {:.0e} fit",
+        MeshSettings::MAX_ELEMENTS
+    )]
     TooFine { size: f64, elements: f64 },
 }
 
@@ -94,7 +100,8 @@ impl World {
     /// # Errors
     /// If the element size is not a positive number or too fine for memory.
     pub fn remeshed(&self, settings: &MeshSettings) -> Result<Self, WorldError> {
-        let (mesh, element_size) = mesh(&self.scene, &Surfaces::new(&self.scene), &self.tracer, &self.is_reached, settings)?;
+        let (mesh, element_size) =
+            mesh(&self.scene, &Surfaces::new(&self.scene), &self.tracer, &self.is_reached, settings)?;
         Ok(Self {
             scene: self.scene.clone(),
             tracer: self.tracer.clone(),
@@ -120,8 +127,10 @@ fn mesh(
         Some(size) if size > 0.0 && size.is_finite() => f64::from(size),
         Some(size) => return Err(WorldError::ElementSize(size)),
         None => {
-            let area = is_reached.iter().enumerate().filter(|(_, reached)| **reached).map(|(side, _)| surfaces.area(side));
-            element_size_for(area.sum(), MeshSettings::DEFAULT_ELEMENTS)
+            let area =
+                is_reached.iter().enumerate().filter(|(_, reached)| **reached).map(|(side, _)| surfaces.area(side));
+            let wanted = MeshSettings::DEFAULT_ELEMENTS.max(ELEMENTS_PER_POLYGON * scene.polygons.len() as f64);
+            element_size_for(scene, is_reached, area.sum(), wanted)
         }
     };
     let elements = estimated_elements(scene, is_reached, size);

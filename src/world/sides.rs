@@ -98,7 +98,10 @@ pub fn explore(
 /// Fronts of emitters.
 pub fn emitting_sides(scene: &Scene) -> Vec<usize> {
     let emits = |polygon: usize| scene.materials[scene.polygons[polygon].material as usize].is_emitter();
-    (0..scene.polygons.len()).filter(|&polygon| emits(polygon)).map(|polygon| side_index(polygon as u32, true)).collect()
+    (0..scene.polygons.len())
+        .filter(|&polygon| emits(polygon))
+        .map(|polygon| side_index(polygon as u32, true))
+        .collect()
 }
 
 /// One path of light.

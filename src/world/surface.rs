@@ -3,14 +3,14 @@
 use crate::math::polygon::vector_area;
 use crate::math::random::Stream;
 use crate::math::warp::{cosine_hemisphere, frame};
-use crate::mesh::side_index;
-use crate::scene::Scene;
+use crate::mesh::{Region, side_index};
+use crate::scene::{Polygon, Scene};
 use crate::tracer::{Ray, Tracer};
 use glam::{DVec3, Vec3, Vec3A};
 
 /// What the exploration of a scene needs to know of each polygon.
 pub struct Surfaces {
-    corners: Vec<([Vec3A; 4], usize)>,
+    regions: Vec<Region>,
     /// Unit normals of fronts, and areas in m².
     facing: Vec<(Vec3A, f64)>,
 }
@@ -28,33 +28,32 @@ pub struct Place {
 
 impl Surfaces {
     pub fn new(scene: &Scene) -> Self {
-        let corners = scene.polygons.iter().map(|polygon| {
+        let region = |polygon: &Polygon| {
             let indices = polygon.corners();
             let corner = |i: usize| Vec3A::from(scene.positions[indices[i.min(indices.len() - 1)] as usize]);
-            ([corner(0), corner(1), corner(2), corner(3)], indices.len())
-        });
-        let corners: Vec<_> = corners.collect();
-        let facing = corners.iter().map(|(corners, count)| {
-            let corners: Vec<DVec3> = corners[..*count].iter().map(|corner| corner.as_dvec3()).collect();
+            Region::new([corner(0), corner(1), corner(2), corner(3)], indices.len())
+        };
+        let facing = |region: &Region| {
+            let corners: Vec<DVec3> = region.corners().iter().map(|corner| corner.as_dvec3()).collect();
             let area = vector_area(&corners);
             (area.normalize().as_vec3a(), area.length())
-        });
-        Self { facing: facing.collect(), corners }
+        };
+        let regions: Vec<Region> = scene.polygons.iter().map(region).collect();
+        Self { facing: regions.iter().map(facing).collect(), regions }
     }
 
     pub fn len(&self) -> usize {
-        self.corners.len()
+        self.regions.len()
     }
 
     /// All corners of all polygons.
     pub fn corners(&self) -> impl Iterator<Item = Vec3> + '_ {
-        self.corners.iter().flat_map(|(corners, _)| corners.map(Vec3::from))
+        self.regions.iter().flat_map(|region| region.corners().iter().map(|&corner| Vec3::from(corner)))
     }
 
     /// Corners of one polygon.
     pub fn corners_of(&self, polygon: usize) -> &[Vec3A] {
-        let (corners, count) = &self.corners[polygon];
-        &corners[..*count]
+        self.regions[polygon].corners()
     }
 
     /// Unit normal on the given side.
@@ -68,18 +67,10 @@ impl Surfaces {
         self.facing[side / 2].1
     }
 
-    /// A random place on a side, off the surface by the tracer's offset. Every part of the side can come up; of a
-    /// quad that is no parallelogram some parts do so more often.
+    /// A random place on a side, off the surface by the tracer's offset. Every part of the side can come up.
     pub fn place(&self, side: usize, tracer: &Tracer, stream: &mut Stream) -> Place {
-        let ([a, b, c, d], count) = self.corners[side / 2];
-        let at = stream.uniform2();
-        let point = if count == 3 {
-            let weights = crate::math::warp::triangle(at);
-            a + weights.x * (b - a) + weights.y * (c - a)
-        } else {
-            a.lerp(b, at.x).lerp(d.lerp(c, at.x), at.y)
-        };
         let normal = self.normal(side);
+        let point = self.regions[side / 2].point(stream.uniform2());
         Place { side, point: tracer.lift(point, normal), normal }
     }
 

@@ -10,6 +10,8 @@ use std::f32::consts::TAU;
 
 /// Angle of view from outside, degrees: that of a short telephoto lens, which keeps walls nearly parallel.
 const OUTSIDE_FOV: f32 = 40.0;
+/// Room around the scene, as a factor of its size.
+const MARGIN: f32 = 1.06;
 /// Angle of view inside a room, degrees: wide.
 const INSIDE_FOV: f32 = 70.0;
 /// At least this share of an outside view must see the lit side of something at first sight.
@@ -36,7 +38,8 @@ pub fn choose(
 ) -> Viewpoint {
     let judge = Judge { surfaces, tracer, is_reached };
     let tilted = |degrees: f32| Quat::from_rotation_y(degrees.to_radians()) * Vec3::new(0.0, 0.35, 1.0);
-    let directions = [Vec3::Z, Vec3::X, Vec3::NEG_X, Vec3::NEG_Z].into_iter().chain([30.0, -30.0, 150.0, 210.0].map(tilted));
+    let directions =
+        [Vec3::Z, Vec3::X, Vec3::NEG_X, Vec3::NEG_Z].into_iter().chain([30.0, -30.0, 150.0, 210.0].map(tilted));
     let outside = directions.map(|direction| outside(bounds, direction));
     let judged = outside.map(|view| (judge.open_share(&view), view));
     // The first of several that are equally good: from the front.
@@ -47,11 +50,23 @@ pub fn choose(
     }
 }
 
+/// From this direction, as near as shows every corner of the box in a square picture.
 fn outside(bounds: &Bounds, direction: Vec3) -> Viewpoint {
-    let radius = if bounds.radius() > 0.0 { bounds.radius() } else { 1.0 };
-    let distance = radius / (0.5 * OUTSIDE_FOV).to_radians().sin();
     let target = if bounds.is_empty() { Vec3::ZERO } else { bounds.center() };
-    Viewpoint { eye: target + distance * direction.normalize(), target, up: Vec3::Y, vertical_fov: OUTSIDE_FOV }
+    let backward = direction.normalize();
+    let right = Vec3::Y.cross(backward).normalize();
+    let up = backward.cross(right);
+    let half = 0.5 * bounds.extent();
+    let slope = (0.5 * OUTSIDE_FOV).to_radians().tan() / MARGIN;
+    let corners = (0..8).map(|i| half * Vec3::new(sign(i & 1), sign(i & 2), sign(i & 4)));
+    let needed = corners.map(|corner| corner.dot(backward) + corner.dot(right).abs().max(corner.dot(up).abs()) / slope);
+    let distance = needed.fold(0.0, f32::max);
+    let distance = if distance > 0.0 { distance } else { 1.0 };
+    Viewpoint { eye: target + distance * backward, target, up: Vec3::Y, vertical_fov: OUTSIDE_FOV }
+}
+
+fn sign(bit: usize) -> f32 {
+    if bit == 0 { -1.0 } else { 1.0 }
 }
 
 /// The widest view from the middle of the way between two places that light reaches one after the other.
@@ -62,11 +77,18 @@ fn inside(bounds: &Bounds, judge: &Judge, rooms: &[Place]) -> Viewpoint {
         (0..INSIDE_DIRECTIONS).map(move |i| {
             let turn = Quat::from_rotation_y(TAU * i as f32 / INSIDE_DIRECTIONS as f32);
             let eye = Vec3::from(eye);
-            Viewpoint { eye, target: eye + bounds.radius() * (turn * Vec3::NEG_Z), up: Vec3::Y, vertical_fov: INSIDE_FOV }
+            Viewpoint {
+                eye,
+                target: eye + bounds.radius() * (turn * Vec3::NEG_Z),
+                up: Vec3::Y,
+                vertical_fov: INSIDE_FOV,
+            }
         })
     });
     let judged = views.map(|view| (judge.depth(&view, bounds.radius()), view));
-    judged.reduce(|best, next| if next.0 > best.0 { next } else { best }).map_or_else(|| from_outside(bounds), |best| best.1)
+    judged
+        .reduce(|best, next| if next.0 > best.0 { next } else { best })
+        .map_or_else(|| from_outside(bounds), |best| best.1)
 }
 
 /// Looks at the scene through a few rays.

@@ -144,4 +144,3 @@ fn cosine_direction(normal: DVec3, stream: &mut Stream) -> DVec3 {
     let height = (1.0 - radius * radius).sqrt();
     (radius * angle.cos() * across + radius * angle.sin() * up + height * normal).normalize()
 }
-

@@ -1,6 +1,5 @@
 //! How much of a shooter's flux leaves the scene, by rays.
 
-use super::visibility::shooter_point;
 use crate::math::random::{hash, sobol2};
 use crate::math::warp::{cosine_hemisphere, frame};
 use crate::mesh::Patch;
@@ -11,14 +10,15 @@ use rayon::prelude::*;
 /// Rays of one shot. They are stratified: the shares are good to about half a percent.
 pub const ESCAPE_RAYS: u32 = 1024;
 /// Marks this use of (seed, step) among the others.
-const PASS: u64 = 0x65_7363_6170_65;
+const PASS: u64 = 0x6573_6361_7065;
 
 /// The share of the cosine-distributed rays from a patch that meet nothing, of [`ESCAPE_RAYS`], in [0, 1]. Rays that
 /// meet a side which light cannot reach start where something stands on the patch and covers it: they do not count.
 pub fn escaping_share(world: &World, patch: &Patch, seed: u64, step: u64) -> f64 {
     let seed = hash(seed, step, PASS) as u32;
+    let region = patch.region();
     let count = |i: u32| {
-        let origin = world.tracer.lift(shooter_point(patch, sobol2(i, 0, seed)), patch.normal);
+        let origin = world.tracer.lift(region.point(sobol2(i, 0, seed)), patch.normal);
         let direction = frame(patch.normal) * cosine_hemisphere(sobol2(i, 1, seed));
         match world.tracer.closest(&Ray { origin, direction }) {
             None => [1, 1],

@@ -2,12 +2,12 @@
 
 use crate::math::polygon::form_factor;
 use crate::mesh::{Element, Mesh, Patch};
-use glam::{DVec3, Vec3A};
+use glam::{DVec3, Vec2, Vec3A};
 
 /// A receiver nearer to the shooter than this many of its own radii is integrated over four points, not one.
 const NEAR_RADII: f64 = 4.0;
 /// Gauss-Legendre points of order 2 on [0, 1]; they have equal weights.
-const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
+const GAUSS: [f32; 2] = [0.211_324_87, 0.788_675_1];
 
 /// A shooting patch, made ready for many receivers.
 pub struct Shooter {
@@ -49,16 +49,14 @@ impl Shooter {
         if center.distance(self.center) - self.radius > NEAR_RADII * radius {
             return form_factor(center, normal, &self.corners[..self.count]);
         }
-        let (corners, count) = mesh.element_corners(element);
-        let [a, b, c, d] = corners.map(|corner| corner.as_dvec3());
-        let at = |point| form_factor(point, normal, &self.corners[..self.count]);
-        if count == 3 {
-            let toward = |corner: DVec3| (corner + center) * 0.5;
-            return [a, b, c].map(|corner| at(toward(corner))).iter().sum::<f64>() / 3.0;
+        let region = mesh.region(element);
+        let at = |point: Vec3A| form_factor(point.as_dvec3(), normal, &self.corners[..self.count]);
+        if let &[a, b, c] = region.corners() {
+            return [a, b, c].map(|corner| at(corner.midpoint(element.center))).iter().sum::<f64>() / 3.0;
         }
-        let point = |u: f64, v: f64| a.lerp(b, u).lerp(d.lerp(c, u), v);
         let [low, high] = GAUSS;
-        (at(point(low, low)) + at(point(high, low)) + at(point(low, high)) + at(point(high, high))) / 4.0
+        let points = [Vec2::new(low, low), Vec2::new(high, low), Vec2::new(low, high), Vec2::new(high, high)];
+        points.map(|point| at(region.point(point))).iter().sum::<f64>() / 4.0
     }
 }
 

@@ -5,6 +5,7 @@ use super::visibility::Sightline;
 use crate::cancel::Cancel;
 use crate::math::random::Stream;
 use crate::mesh::Mesh;
+use crate::world::World;
 use std::ops::{AddAssign, Range};
 
 /// A batch holds about this many elements: some milliseconds of work at most, after which the cancel flag is looked at.
@@ -36,7 +37,7 @@ impl AddAssign for Work {
 
 /// One shot, as all receivers see it.
 pub struct Shot<'a> {
-    pub mesh: &'a Mesh,
+    pub world: &'a World,
     pub shooter: Shooter,
     pub sightline: Sightline<'a>,
     pub seed: u64,
@@ -93,9 +94,10 @@ fn gather_batch(batch: &Batch, shot: &Shot, form_factors: &mut [f64]) -> Work {
         return work;
     }
     // Twice as far as a lifted point: nearer planes are one plane.
-    let tolerance = 2.0 * shot.sightline.tracer.offset();
+    let tolerance = 2.0 * shot.world.tracer.offset();
     let first = batch.elements.start;
-    for patch in &shot.mesh.patches[batch.patches.start as usize..batch.patches.end as usize] {
+    let mesh = &shot.world.mesh;
+    for patch in &mesh.patches[batch.patches.start as usize..batch.patches.end as usize] {
         let elements = patch.elements.start as usize..patch.elements.end as usize;
         let out = &mut form_factors[elements.start - first as usize..elements.end - first as usize];
         if !shot.shooter.may_reach(patch, tolerance) {
@@ -104,16 +106,16 @@ fn gather_batch(batch: &Batch, shot: &Shot, form_factors: &mut [f64]) -> Work {
         }
         let normal = patch.normal.as_dvec3();
         for (index, out) in elements.zip(out) {
-            let element = &shot.mesh.elements[index];
+            let element = &mesh.elements[index];
             if element.exposed == 0.0 {
                 *out = 0.0;
                 continue;
             }
-            *out = shot.shooter.form_factor(shot.mesh, element, normal);
+            *out = shot.shooter.form_factor(mesh, element, normal);
             work.form_factors += 1;
             if *out > 0.0 {
                 let mut stream = Stream::new(shot.seed, shot.step, index as u64);
-                let (visible, rays) = shot.sightline.visible_share(element, patch.normal, &mut stream);
+                let (visible, rays) = shot.sightline.visible_share(element, patch.normal, *out, &mut stream);
                 *out *= visible;
                 work.rays += u64::from(rays);
             }

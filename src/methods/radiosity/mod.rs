@@ -23,7 +23,7 @@ use gather::{Receivers, Shot};
 use ledger::Ledger;
 use std::sync::Arc;
 use std::time::Duration;
-use visibility::Sightline;
+use visibility::{Rays, Sightline};
 
 /// The state of a run. Patches shoot, elements receive.
 pub struct Radiosity {
@@ -43,8 +43,8 @@ pub struct Radiosity {
     ledger: Ledger,
     counters: Counters,
     steps: u64,
-    /// The largest flux shot so far, W summed over RGB.
-    largest_shot: f64,
+    /// Mean irradiance to be expected in the end, W/m² summed over RGB.
+    expected_irradiance: f64,
     shooter: Option<u32>,
 }
 
@@ -53,7 +53,7 @@ impl Radiosity {
     pub fn new(world: Arc<World>, settings: Settings) -> Self {
         let patches = &world.mesh.patches;
         let material = |patch: &Patch| &world.scene.materials[patch.material as usize];
-        let reflectance = patches.iter().map(|patch| material(patch).diffuse.as_dvec3()).collect();
+        let reflectance: Vec<Rgb64> = patches.iter().map(|patch| material(patch).diffuse.as_dvec3()).collect();
         // Emitters shine from their front; their back only reflects.
         let exitance: Vec<Rgb64> = patches
             .iter()
@@ -62,7 +62,6 @@ impl Radiosity {
         let emitted = patches.iter().zip(&exitance).map(|(patch, exitance)| *exitance * patch.area).sum();
         Self {
             receivers: Receivers::new(&world.mesh),
-            reflectance,
             unshot: exitance.clone(),
             exitance,
             irradiance: vec![Rgb64::ZERO; world.mesh.elements.len()],
@@ -70,7 +69,8 @@ impl Radiosity {
             ledger: Ledger::new(emitted),
             counters: Counters::default(),
             steps: 0,
-            largest_shot: 0.0,
+            expected_irradiance: expected_irradiance(&world, &reflectance, emitted),
+            reflectance,
             shooter: None,
             settings,
             world,
@@ -97,11 +97,11 @@ impl Radiosity {
         total(self.unshot_in_all()) <= self.settings.unshot_limit * total(self.ledger.emitted)
     }
 
-    /// Rays to each receiver in proportion to the flux, within limits.
-    fn rays_for(&self, flux: f64) -> u32 {
-        let most = self.settings.shadow_rays;
-        let share = flux / self.largest_shot.max(flux);
-        ((f64::from(most) * share).ceil() as u32).clamp(Settings::MIN_SHADOW_RAYS.min(most), most)
+    /// Visibility rays in proportion to the irradiance that the shot may bring, [`Settings::shadow_rays`] for all that is
+    /// expected in the end. Each shot then adds noise in proportion to what it adds, and for a given number of rays the
+    /// sum has the least.
+    fn rays_per_form_factor(&self, patch: usize) -> f64 {
+        f64::from(self.settings.shadow_rays) * total(self.unshot[patch]) / self.expected_irradiance
     }
 
     /// Hands the shooter's unshot flux to the elements and to the void.
@@ -149,6 +149,15 @@ impl Radiosity {
     }
 }
 
+/// The irradiance of a closed room with this much light and the mean reflectance of the scene: Φ / (S (1 − ρ̄)), W/m²
+/// summed over RGB (the ambient term of Cohen, Chen, Wallace, Greenberg 1988 before the first shot).
+fn expected_irradiance(world: &World, reflectance: &[Rgb64], emitted: Rgb64) -> f64 {
+    let area = world.mesh.area();
+    let reflecting: Rgb64 = world.mesh.patches.iter().zip(reflectance).map(|(patch, rho)| *rho * patch.area).sum();
+    let mean = reflecting / area;
+    total(emitted / (area * (Rgb64::ONE - mean)))
+}
+
 impl Method for Radiosity {
     /// One shot. It takes (number of elements) · (visibility rays) shadow rays, fewer where patches face away.
     fn step(&mut self, cancel: &Cancel) -> Step {
@@ -156,14 +165,13 @@ impl Method for Radiosity {
             return Step::Converged;
         }
         let Some(patch) = self.brightest() else { return Step::Converged };
-        let flux = self.unshot_flux(patch);
-        let rays = self.rays_for(flux);
+        let rays = Rays { most: self.settings.shadow_rays, per_form_factor: self.rays_per_form_factor(patch) };
         let world = self.world.clone();
         let shooter = &world.mesh.patches[patch];
         let shot = Shot {
-            mesh: &world.mesh,
+            world: &world,
             shooter: Shooter::new(shooter),
-            sightline: Sightline { mesh: &world.mesh, tracer: &world.tracer, shooter, rays },
+            sightline: Sightline::new(&world, shooter, rays),
             seed: self.settings.seed,
             step: self.steps,
             cancel,
@@ -174,7 +182,6 @@ impl Method for Radiosity {
         }
         let escaping = escaping_share(&world, shooter, self.settings.seed, self.steps);
         self.receive(patch, escaping);
-        self.largest_shot = self.largest_shot.max(flux);
         self.shooter = Some(patch as u32);
         self.steps += 1;
         self.counters.form_factors += work.form_factors;

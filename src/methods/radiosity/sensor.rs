@@ -1,6 +1,5 @@
 //! Irradiance at a point in space, gathered from all patches.
 
-use super::visibility::shooter_point;
 use crate::math::polygon::form_factor;
 use crate::math::random::{hash, sobol2};
 use crate::math::rgb::{Rgb, Rgb64};
@@ -13,7 +12,7 @@ use rayon::prelude::*;
 /// Visibility rays to each patch.
 const RAYS: u32 = 32;
 /// Marks this use of (seed, index) among the others.
-const PASS: u64 = 0x73_656e_736f_72;
+const PASS: u64 = 0x7365_6e73_6f72;
 
 /// Irradiance E, W/m², on a small surface with unit `normal` at a `point` that need not lie on any surface: the sum over
 /// all patches of radiosity times form factor times visibility.
@@ -42,16 +41,16 @@ pub fn irradiance_in_space(world: &World, solution: &Solution, point: Vec3A, nor
 
 fn mean_radiosity(world: &World, solution: &Solution, patch: &Patch) -> Rgb64 {
     let elements = patch.elements.start as usize..patch.elements.end as usize;
-    let flux: Rgb64 =
-        elements.map(|i| solution.light.radiosity[i].as_dvec3() * world.mesh.elements[i].area).sum();
+    let flux: Rgb64 = elements.map(|i| solution.light.radiosity[i].as_dvec3() * world.mesh.elements[i].area).sum();
     if patch.area > 0.0 { flux / patch.area } else { Rgb64::ZERO }
 }
 
 /// Share of the patch's points above the horizon that the sensor sees.
 fn visible_share(world: &World, patch: &Patch, point: Vec3A, normal: Vec3A, seed: u32) -> f64 {
+    let region = patch.region();
     let (mut above, mut visible) = (0, 0);
     for i in 0..RAYS {
-        let to = world.tracer.lift(shooter_point(patch, sobol2(i, 0, seed)), patch.normal);
+        let to = world.tracer.lift(region.point(sobol2(i, 0, seed)), patch.normal);
         if (to - point).dot(normal) > 0.0 {
             above += 1;
             visible += u32::from(world.tracer.is_visible(point, to));

@@ -1,11 +1,10 @@
 //! How much of a shooting patch a receiving element sees, by shadow rays.
 
 use crate::math::random::Stream;
-use crate::math::warp::triangle;
-use crate::mesh::{Element, Mesh, Patch};
-use crate::tracer::Tracer;
-use crate::world::is_covered;
-use glam::{Vec2, Vec3A, Vec4};
+use crate::mesh::{Element, Patch, Region};
+use crate::methods::Settings;
+use crate::world::{World, is_covered};
+use glam::{Vec3A, Vec4, Vec4Swizzles};
 
 /// 1/g, 1/g², 1/g³, 1/g⁴, where g solves g⁵ = g + 1: multiples of these fill [0, 1)⁴ evenly at every length (Roberts
 /// 2018). Two coordinates are on the receiver, two on the shooter, so that the mean is over both areas and a shadow's
@@ -14,65 +13,66 @@ const STEP: Vec4 = Vec4::new(0.856_674_9, 0.733_891_9, 0.628_706_7, 0.538_597_3)
 /// Points tried for each ray on an element that is partly covered.
 const TRIES: u32 = 16;
 
-/// The receivers and the shooter that rays run between.
-pub struct Sightline<'a> {
-    pub mesh: &'a Mesh,
-    pub tracer: &'a Tracer,
-    pub shooter: &'a Patch,
-    /// Rays for each receiver.
-    pub rays: u32,
+/// How many rays a receiver gets.
+#[derive(Clone, Copy, Debug)]
+pub struct Rays {
+    /// At most this many.
+    pub most: u32,
+    /// This many times its form factor, [`Settings::MIN_SHADOW_RAYS`] or more.
+    pub per_form_factor: f64,
 }
 
-impl Sightline<'_> {
+impl Rays {
+    fn to(&self, form_factor: f64) -> u32 {
+        ((self.per_form_factor * form_factor).ceil() as u32).max(Settings::MIN_SHADOW_RAYS).min(self.most)
+    }
+}
+
+/// The receivers and the shooter that rays run between.
+pub struct Sightline<'a> {
+    world: &'a World,
+    /// Lifted off the shooter.
+    shooter: Region,
+    shooter_normal: Vec3A,
+    rays: Rays,
+}
+
+impl<'a> Sightline<'a> {
+    pub fn new(world: &'a World, shooter: &Patch, rays: Rays) -> Self {
+        let lift = world.tracer.offset() * shooter.normal;
+        Self { world, shooter: shooter.region().shifted(lift), shooter_normal: shooter.normal, rays }
+    }
+
     /// Share of point pairs of element and shooter that see each other, among those that face each other, and the
-    /// number of rays traced. `stream` shifts the pattern of points, so that neighbours do not err alike.
-    pub fn visible_share(&self, element: &Element, normal: Vec3A, stream: &mut Stream) -> (f64, u32) {
-        let (corners, count) = self.mesh.element_corners(element);
-        let receiver = (corners.map(Vec3A::from), count);
-        let shooter = corners_of(self.shooter);
+    /// number of rays traced. `form_factor` is what it would be with nothing between them. `stream` shifts the pattern
+    /// of points, so that neighbours do not err alike.
+    pub fn visible_share(&self, element: &Element, normal: Vec3A, form_factor: f64, stream: &mut Stream) -> (f64, u32) {
+        let World { mesh, tracer, .. } = self.world;
+        let receiver = mesh.region(element).shifted(tracer.offset() * normal);
+        let rays = self.rays.to(form_factor);
+        let is_partly_covered = element.exposed < 1.0;
+        let tries = if is_partly_covered { TRIES * rays } else { rays };
         let (low, high) = (stream.uniform2(), stream.uniform2());
         let mut at = Vec4::new(low.x, low.y, high.x, high.y);
-        let tries = if element.exposed < 1.0 { TRIES * self.rays } else { self.rays };
         let (mut pairs, mut facing, mut visible) = (0, 0, 0);
         for _ in 0..tries {
             at = (at + STEP).fract();
-            let from = self.tracer.lift(point(&receiver, Vec2::new(at.x, at.y)), normal);
-            if element.exposed < 1.0 && is_covered(self.mesh, self.tracer, from, normal) {
+            let from = receiver.point(at.xy());
+            if is_partly_covered && is_covered(mesh, tracer, from, normal) {
                 continue;
             }
-            let to = self.tracer.lift(point(&shooter, Vec2::new(at.z, at.w)), self.shooter.normal);
+            let to = self.shooter.point(at.zw());
             let way = to - from;
-            if way.dot(normal) > 0.0 && way.dot(self.shooter.normal) < 0.0 {
+            if way.dot(normal) > 0.0 && way.dot(self.shooter_normal) < 0.0 {
                 facing += 1;
-                visible += u32::from(self.tracer.is_visible(from, to));
+                visible += u32::from(tracer.is_visible(from, to));
             }
             pairs += 1;
-            if pairs == self.rays {
+            if pairs == rays {
                 break;
             }
         }
         let share = if facing > 0 { f64::from(visible) / f64::from(facing) } else { 0.0 };
         (share, facing)
-    }
-}
-
-/// A point of a patch for coordinates in [0, 1)².
-pub fn shooter_point(patch: &Patch, at: Vec2) -> Vec3A {
-    point(&corners_of(patch), at)
-}
-
-fn corners_of(patch: &Patch) -> ([Vec3A; 4], usize) {
-    let corners = patch.corners();
-    (std::array::from_fn(|i| Vec3A::from(corners[i.min(corners.len() - 1)])), corners.len())
-}
-
-/// A point of a triangle or quad. Cells of a quad's grid are near enough to parallelograms for the bilinear map to be
-/// even.
-fn point(([a, b, c, d], count): &([Vec3A; 4], usize), at: Vec2) -> Vec3A {
-    if *count == 3 {
-        let weights = triangle(at);
-        *a + weights.x * (*b - *a) + weights.y * (*c - *a)
-    } else {
-        a.lerp(*b, at.x).lerp(d.lerp(*c, at.x), at.y)
     }
 }

@@ -1,0 +1,66 @@
+//! What the window itself does for a frame at 100,000 elements: taking over a new solution, and recording a draw.
+//!
+//! `cargo bench --bench viewport` prints milliseconds of the thread that calls; what the graphics adapter does afterwards
+//! is not in them. Needs an adapter, software will do; without one it says so.
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use lightwell::camera::Camera;
+use lightwell::cancel::Cancel;
+use lightwell::mesh::MeshSettings;
+use lightwell::methods::Settings;
+use lightwell::scene::Scene;
+use lightwell::viewport::{AdapterChoice, Frame, Gpu, ToneCurve, View, Viewport, automatic_exposure};
+use lightwell::worker::Run;
+use lightwell::world::World;
+use std::sync::Arc;
+
+/// Element size at which the Cornell box has about 100,000 elements.
+const ELEMENT_SIZE: f32 = 0.0049;
+
+fn window_work(criterion: &mut Criterion) {
+    let gpu = match Gpu::new(&AdapterChoice::System) {
+        Ok(gpu) => gpu,
+        Err(error) => return println!("viewport: skipped: {error}"),
+    };
+    let settings = Settings { mesh: MeshSettings { element_size: Some(ELEMENT_SIZE) }, ..Settings::default() };
+    let scene = Scene::open("cornell-box").expect("a built-in scene");
+    let world = Arc::new(World::build(scene, &settings.mesh, &Cancel::default()).expect("a world"));
+    let mut run = Run::start(world.clone(), &settings);
+    for _ in 0..4 {
+        run.step(&Cancel::default());
+    }
+    let solution = run.solution();
+    println!("viewport: {} elements, {}", world.mesh.elements.len(), gpu.adapter_name());
+
+    let mut viewport = Viewport::new(&gpu, wgpu::TextureFormat::Rgba8Unorm);
+    viewport.set_world(&world);
+    let mut frame = Frame {
+        camera: Camera::new(&world.viewpoint, &world.bounds),
+        size: [640, 480],
+        view: View::Smooth,
+        wireframe: false,
+        show_shooter: true,
+        exposure_ev: 0.0,
+        tone: ToneCurve::Linear,
+    };
+    let mut group = criterion.benchmark_group("window_at_100k_elements");
+    group.sample_size(20);
+    group.bench_function("take_over_a_solution", |bencher| {
+        bencher.iter(|| {
+            viewport.set_light(&world, &solution);
+            automatic_exposure(&world, &solution)
+        });
+    });
+    group.bench_function("record_a_draw", |bencher| {
+        bencher.iter(|| {
+            frame.camera.orbit(0.01, 0.0);
+            let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            viewport.draw(&mut encoder, &frame);
+            encoder.finish()
+        });
+    });
+    group.finish();
+}
+
+criterion_group!(benches, window_work);
+criterion_main!(benches);
