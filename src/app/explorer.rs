@@ -15,6 +15,7 @@ use crate::methods::Settings;
 use crate::scene::Source;
 use crate::worker::{Command, Snapshot, Worker};
 use egui::{Ui, ViewportCommand};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -100,7 +101,7 @@ impl Explorer {
         match self.file_dialogs.poll() {
             Some(Outcome::Chosen(PathPurpose::OpenScene, path)) => self.open(path.to_string_lossy().into_owned()),
             Some(Outcome::Chosen(PathPurpose::SavePicture(request), path)) => {
-                self.save_picture(request, Destination::File(path));
+                self.save_picture_as(request, path);
             }
             Some(Outcome::Unavailable(purpose)) => {
                 self.dialog = Some(Dialog::Path { purpose, text: String::new() });
@@ -160,7 +161,7 @@ impl Explorer {
                 let name = format!("lightwell-{scene}.{}", extension(request.format));
                 self.file_dialogs.save_picture(request, name);
             }
-            Action::SavePicture(request, path) => self.save_picture(request, Destination::File(path)),
+            Action::SavePicture(request, path) => self.save_picture_as(request, path),
             Action::SetTheme(theme) => {
                 self.preferences.theme = theme;
                 ctx.set_theme(theme);
@@ -185,6 +186,12 @@ impl Explorer {
             self.edited = Some(settings);
             self.worker.send(Command::Configure(settings));
         }
+    }
+
+    /// A path without an ending gets the one of the format; one with an ending says the format.
+    fn save_picture_as(&mut self, request: PictureRequest, path: PathBuf) {
+        let path = if path.extension().is_some() { path } else { path.with_extension(extension(request.format)) };
+        self.save_picture(request, Destination::File(path));
     }
 
     fn save_picture(&mut self, request: PictureRequest, destination: Destination) {

@@ -42,11 +42,7 @@ impl FileDialogs {
             .set_title("Save a picture")
             .add_filter(extension.to_uppercase(), &[extension])
             .set_file_name(name);
-        self.show(PathPurpose::SavePicture(request), move || {
-            dialog
-                .save_file()
-                .map(|path| if path.extension().is_none() { path.with_extension(extension) } else { path })
-        });
+        self.show(PathPurpose::SavePicture(request), move || dialog.save_file());
     }
 
     /// Runs one dialog at a time; asked for another while one is open, it does nothing.

@@ -19,8 +19,9 @@ mod viewport_pane;
 
 pub use explorer::Explorer;
 
-use crate::viewport::{AdapterChoice, adapter_selector, device_descriptor};
+use crate::viewport::{AdapterChoice, GpuError, adapter_selector, device_descriptor};
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuError, WgpuSetup, WgpuSetupCreateNew};
+use eframe::wgpu;
 use std::sync::Arc;
 
 /// What the command line says about the window.
@@ -35,11 +36,10 @@ pub struct Options {
 #[derive(Debug, thiserror::Error)]
 pub enum AppError {
     #[error(
-        "there is no display to open a window on (set DISPLAY or WAYLAND_DISPLAY); \
-         without one, `lightwell render SCENE -o FILE.png` writes a picture"
+        "there is no display to open a window on ({0}); without one, `lightwell render SCENE -o FILE.png` writes a picture"
     )]
-    NoDisplay(#[source] Box<eframe::Error>),
-    #[error("no graphics adapter can draw the window: {0}")]
+    NoDisplay(String),
+    #[error("{0}")]
     NoAdapter(String),
     #[error("the window failed")]
     Window(#[source] Box<eframe::Error>),
@@ -68,19 +68,27 @@ pub fn run(options: Options) -> Result<(), AppError> {
 }
 
 fn wgpu_configuration(adapter: AdapterChoice) -> WgpuConfiguration {
-    let setup = WgpuSetupCreateNew {
+    let mut setup = WgpuSetupCreateNew {
         native_adapter_selector: Some(Arc::new(adapter_selector(adapter))),
         device_descriptor: Arc::new(device_descriptor),
         ..WgpuSetupCreateNew::without_display_handle()
     };
+    // As without a window. OpenGL would take its time to start and lacks what the viewport needs.
+    setup.instance_descriptor.backends = wgpu::Backends::from_env().unwrap_or(wgpu::Backends::PRIMARY);
     WgpuConfiguration { wgpu_setup: WgpuSetup::CreateNew(setup), ..WgpuConfiguration::default() }
 }
 
 fn app_error(error: eframe::Error) -> AppError {
     match error {
-        eframe::Error::Winit(_) | eframe::Error::WinitEventLoop(_) => AppError::NoDisplay(Box::new(error)),
+        eframe::Error::Winit(_) | eframe::Error::WinitEventLoop(_) => {
+            // What winit says ends with the reason, after a place in its own source.
+            let text = error.to_string();
+            let reason = text.rsplit(": ").next().unwrap_or(&text);
+            AppError::NoDisplay(reason.trim_end_matches('.').to_owned())
+        }
         eframe::Error::Wgpu(WgpuError::CustomNativeAdapterSelectionError(reason)) => AppError::NoAdapter(reason),
-        eframe::Error::Wgpu(WgpuError::CreateSurfaceError(reason)) => AppError::NoAdapter(reason.to_string()),
+        // No backend has started, so there was no adapter to select from.
+        eframe::Error::Wgpu(WgpuError::CreateSurfaceError(_)) => AppError::NoAdapter(GpuError::NoAdapter.to_string()),
         other => AppError::Window(Box::new(other)),
     }
 }

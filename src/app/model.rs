@@ -1,6 +1,7 @@
 //! What the panels show. They read a [`Model`] and return [`super::Action`]s; nothing here can be changed by them.
 
 use crate::cli::picture::Format;
+use crate::math::rgb::Rgb64;
 use crate::methods::Settings;
 use crate::scene::{Finding, FindingKind};
 use crate::solution::Solution;
@@ -37,9 +38,9 @@ pub struct Model<'a> {
 }
 
 impl Model<'_> {
-    /// Whether there is light to compute: a scene is open and the solver is alive.
+    /// Whether there is light to compute: a scene with an emitter is open, and the solver is alive and not done.
     pub fn can_run(&self) -> bool {
-        self.scene.is_some() && matches!(self.phase, Phase::Paused | Phase::Running)
+        self.scene.is_some_and(|scene| !scene.is_dark()) && matches!(self.phase, Phase::Paused | Phase::Running)
     }
 
     pub fn is_running(&self) -> bool {
@@ -49,7 +50,9 @@ impl Model<'_> {
     /// How far the light is between the emitters (0) and the stop limit (1), on a logarithmic scale: shooting takes about
     /// as long from 10 % to 1 % of unshot flux as from 100 % to 10 %.
     pub fn progress(&self) -> f32 {
-        let Some(solution) = self.solution else { return 0.0 };
+        let Some(solution) = self.solution.filter(|solution| solution.energy.emitted != Rgb64::ZERO) else {
+            return 0.0;
+        };
         let unshot = solution.energy.unshot_share();
         let limit = self.settings.unshot_limit;
         if solution.converged || unshot <= limit {

@@ -53,8 +53,8 @@ impl ViewportPane {
         self.size
     }
 
-    /// Uploads what is new in the snapshot. A scene that was not on show before gets its own first view; the same scene
-    /// with another mesh keeps the camera. Returns whether another scene came on show.
+    /// Uploads what is new in the snapshot. Another scene gets its own first view; the same one with another mesh, or read
+    /// again, keeps the camera. Returns whether another scene came on show.
     pub fn follow(&mut self, snapshot: &Snapshot) -> bool {
         let Some(world) = &snapshot.world else { return false };
         let mut renderer = self.render_state.renderer.write();
@@ -62,7 +62,7 @@ impl ViewportPane {
         let mut is_other_scene = false;
         if !is_same(&self.world, world) {
             viewport.set_world(world);
-            is_other_scene = self.world.as_ref().is_none_or(|shown| !Arc::ptr_eq(&shown.scene, &world.scene));
+            is_other_scene = self.world.as_ref().is_none_or(|shown| shown.scene.source != world.scene.source);
             self.world = Some(Arc::clone(world));
             self.solution = None;
         }

@@ -14,7 +14,9 @@ const MAX_SIDE: u32 = 8192;
 
 pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     let Some(dialog) = model.dialog else { return };
-    let modal = Modal::new(Id::unique("dialog")).frame(Frame::window(ui.style())).show(ui.ctx(), |ui| {
+    // Each kind of dialog has a size of its own.
+    let id = Id::unique(("dialog", std::mem::discriminant(dialog)));
+    let modal = Modal::new(id).frame(Frame::window(ui.style())).show(ui.ctx(), |ui| {
         ui.set_width(100.0 * UNIT);
         match dialog {
             Dialog::Picture(request) => picture(ui, model, *request, actions),

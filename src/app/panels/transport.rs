@@ -7,6 +7,7 @@ use crate::app::format;
 use crate::app::keys;
 use crate::app::model::Model;
 use crate::app::theme::{Palette, UNIT};
+use crate::math::rgb::Rgb64;
 use crate::worker::{Command, Phase};
 use egui::accesskit::Role;
 use egui::{
@@ -87,6 +88,7 @@ fn progress_text(model: &Model) -> String {
     match (model.phase, model.solution) {
         (Phase::Loading(_), _) => "Loading".to_owned(),
         (_, None) => String::new(),
+        (_, Some(solution)) if solution.energy.emitted == Rgb64::ZERO => "No light".to_owned(),
         (_, Some(solution)) if solution.converged => "Converged".to_owned(),
         (_, Some(solution)) => format!("{} unshot", format::percent(solution.energy.unshot_share())),
     }
