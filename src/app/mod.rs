@@ -36,7 +36,8 @@ pub struct Options {
 #[derive(Debug, thiserror::Error)]
 pub enum AppError {
     #[error(
-        "there is no display to open a window on ({0}); without one, `lightwell render SCENE -o FILE.png` writes a picture"
+        "there is no display to open a window on ({0}); \
+         without one, `lightwell render SCENE -o FILE.png` writes a picture"
     )]
     NoDisplay(String),
     #[error("{0}")]

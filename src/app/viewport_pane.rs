@@ -53,8 +53,8 @@ impl ViewportPane {
         self.size
     }
 
-    /// Uploads what is new in the snapshot. Another scene gets its own first view; the same one with another mesh, or read
-    /// again, keeps the camera. Returns whether another scene came on show.
+    /// Uploads what is new in the snapshot. Another scene gets its own first view; the same one with another mesh, or
+    /// read again, keeps the camera. Returns whether another scene came on show.
     pub fn follow(&mut self, snapshot: &Snapshot) -> bool {
         let Some(world) = &snapshot.world else { return false };
         let mut renderer = self.render_state.renderer.write();
