@@ -59,6 +59,7 @@ pub fn run(options: Options) -> Result<(), AppError> {
         viewport: egui::ViewportBuilder::default()
             .with_title("Lightwell")
             .with_app_id("lightwell")
+            .with_icon(theme::icon())
             .with_inner_size([1280.0, 800.0])
             .with_min_inner_size([960.0, 600.0]),
         wgpu_options: wgpu_configuration(options.adapter),

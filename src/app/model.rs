@@ -1,4 +1,4 @@
-//! What the panels show. They read a [`Model`] and return [`super::Action`]s; nothing here can be changed by them.
+//! What the panels show. They read a [`Model`] and return [`super::action::Action`]s; nothing here can be changed by them.
 
 use crate::cli::picture::Format;
 use crate::math::rgb::Rgb64;
