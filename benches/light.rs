@@ -1,6 +1,6 @@
 //! The hot paths of light: rays of the tracer alone, form factors, and whole shots, on all cores.
 //!
-//! `cargo bench --bench light` prints elements per second: rays, form factors or shadow rays. The rate of a shot over the
+//! `cargo bench --bench light` prints elements per second: rays, form factors, and the rays of shots. The rate of a shot over the
 //! rate of `tracer/visibility`, which traces rays of the same kind and nothing else, is the share of the tracer's speed
 //! that goes through a shot.
 
@@ -102,18 +102,18 @@ fn form_factors(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// The time of shots from a range of steps, and the shadow rays and shots in it.
+/// The time of shots from a range of steps, and the rays in it.
 fn shots(world: &Arc<World>, skip: u64, count: u64) -> (Duration, u64) {
     let mut method = Radiosity::new(world.clone(), Settings::default());
     for _ in 0..skip {
         method.step(&Cancel::default());
     }
-    let before = method.solution().counters.shadow_rays;
+    let before = method.solution().counters.rays;
     let start = Instant::now();
     for _ in 0..count {
         method.step(&Cancel::default());
     }
-    (start.elapsed(), method.solution().counters.shadow_rays - before)
+    (start.elapsed(), method.solution().counters.rays - before)
 }
 
 fn shooting(criterion: &mut Criterion) {
@@ -123,13 +123,9 @@ fn shooting(criterion: &mut Criterion) {
     for (name, skip, count) in [("first_16", 0, 16), ("next_256", 16, 256)] {
         let (_, rays) = shots(&world, skip, count);
         let elements = world.mesh.elements.len();
-        println!("shot/{name}: {} shadow rays a shot, {elements} elements", rays / count);
+        println!("shot/{name}: {count} shots of {} rays each, {elements} elements", rays / count);
         group.throughput(Throughput::Elements(rays));
         group.bench_function(name, |bencher| {
-            bencher.iter_custom(|rounds| (0..rounds).map(|_| shots(&world, skip, count).0).sum());
-        });
-        group.throughput(Throughput::Elements(count));
-        group.bench_function(format!("{name}_in_shots"), |bencher| {
             bencher.iter_custom(|rounds| (0..rounds).map(|_| shots(&world, skip, count).0).sum());
         });
     }

@@ -19,6 +19,10 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+/// Where drawing takes processors from the solver, new light waits this long for company. What the person does is
+/// drawn at once.
+const SOFTWARE_PACE: Duration = Duration::from_millis(100);
+
 /// The window's state.
 pub struct Explorer {
     worker: Worker,
@@ -50,10 +54,11 @@ impl Explorer {
             context.storage.and_then(|storage| eframe::get_value(storage, Preferences::KEY)).unwrap_or_default();
         theme::install(ctx);
         ctx.set_theme(preferences.theme);
-        let waker = ctx.clone();
-        let worker = Worker::spawn(move || waker.request_repaint());
-        worker.send(Command::Load(scene));
         let pane = ViewportPane::new(render_state);
+        let waker = ctx.clone();
+        let pace = if pane.gpu().is_software() { SOFTWARE_PACE } else { Duration::ZERO };
+        let worker = Worker::spawn(move || waker.request_repaint_after(pace));
+        worker.send(Command::Load(scene));
         Ok(Self {
             snapshot: worker.latest(),
             worker,

@@ -117,6 +117,11 @@ impl Gpu {
         let info = self.device.adapter_info();
         format!("{} ({})", info.name, info.backend)
     }
+
+    /// Whether the adapter draws on the processor, and so at the expense of everything else.
+    pub fn is_software(&self) -> bool {
+        self.device.adapter_info().device_type == wgpu::DeviceType::Cpu
+    }
 }
 
 fn keep_first(failure: &Mutex<Option<String>>, message: String) {

@@ -88,7 +88,8 @@ impl Mailbox {
 /// Adds a command and drops those that it makes pointless.
 fn merge(commands: &mut VecDeque<Command>, new: Command) {
     match &new {
-        Command::Load(_) => commands.clear(),
+        // Settings are not about one scene.
+        Command::Load(_) => commands.retain(|old| matches!(old, Command::Configure(_))),
         Command::Configure(_) => commands.retain(|old| !matches!(old, Command::Configure(_))),
         Command::Run | Command::Pause => commands.retain(|old| !matches!(old, Command::Run | Command::Pause)),
         Command::Step(more) => {
@@ -126,7 +127,7 @@ mod tests {
         assert_eq!(merged([Command::Step(1), Command::Step(10)]), [Command::Step(11)]);
         assert_eq!(merged([Command::Run, Command::Step(5), Command::Reset]), [Command::Reset]);
         let load = Command::Load("furnace".to_owned());
-        assert_eq!(merged([with_seed(1), Command::Run, load.clone()]), [load]);
+        assert_eq!(merged([with_seed(1), Command::Run, load.clone()]), [with_seed(1), load]);
     }
 
     #[test]

@@ -69,7 +69,7 @@ impl Solver {
     }
 
     fn add_ceiling_light(&mut self) {
-        let Some(world) = self.snapshot.world.clone() else { return };
+        let Some(world) = self.snapshot.world.clone().filter(|world| !world.scene.has_emitter()) else { return };
         let before = self.snapshot.phase.clone();
         let built = self.build(world.scene.with_ceiling_light());
         self.take_over(built, before);
@@ -87,9 +87,10 @@ impl Solver {
             if !self.run.as_mut().is_some_and(|run| run.configure(&settings)) {
                 self.start(world);
             }
-            if self.snapshot.phase == Phase::Converged {
+            if self.snapshot.phase != Phase::Running {
                 self.snapshot.phase = Phase::Paused;
             }
+            self.snapshot.error = None;
             return self.publish();
         }
         let phase = self.snapshot.phase.clone();
@@ -104,11 +105,9 @@ impl Solver {
     fn take_over(&mut self, built: Result<World, String>, before: Phase) {
         match built {
             Ok(world) => {
-                let world = Arc::new(world);
-                self.snapshot.world = Some(world.clone());
                 self.snapshot.error = None;
                 self.snapshot.phase = if before == Phase::Running { Phase::Running } else { Phase::Paused };
-                self.start(world);
+                self.start(Arc::new(world));
             }
             Err(error) => {
                 // A load that another one interrupts is no error.
@@ -121,6 +120,9 @@ impl Solver {
     }
 
     fn start(&mut self, world: Arc<World>) {
+        self.snapshot.world = Some(world.clone());
+        // Should the method panic before its first step, there is no light that belongs to this world.
+        self.snapshot.solution = None;
         let run = Run::of((self.start_method)(world, &self.snapshot.settings));
         self.snapshot.solution = Some(Arc::new(run.solution()));
         self.run = Some(run);

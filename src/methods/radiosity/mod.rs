@@ -115,9 +115,12 @@ impl Radiosity {
             let range = receiver.elements.start as usize..receiver.elements.end as usize;
             let mut received = Rgb64::ZERO;
             for index in range {
-                let irradiance = shot_scaled * self.form_factors[index];
-                self.irradiance[index] += irradiance;
-                received += irradiance * elements[index].area;
+                let form_factor = self.form_factors[index];
+                if form_factor > 0.0 {
+                    let irradiance = shot_scaled * form_factor;
+                    self.irradiance[index] += irradiance;
+                    received += irradiance * elements[index].area;
+                }
             }
             if receiver.area > 0.0 {
                 *unshot += *reflectance * received / receiver.area;

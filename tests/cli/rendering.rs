@@ -1,0 +1,127 @@
+//! `lightwell render`. Needs a graphics adapter; one in software will do.
+
+use crate::{assert_contains, files, folder, json, keys, printed, refusal, run, stderr, write_dark_scene};
+use image::ImageReader;
+use lightwell::viewport::{AdapterChoice, Gpu};
+use std::collections::BTreeMap;
+use tempfile::TempDir;
+
+/// Whether there is an adapter; with `REQUIRE_GPU=1` there must be one.
+fn can_draw() -> bool {
+    match Gpu::new(&AdapterChoice::System) {
+        Ok(_) => true,
+        Err(error) if std::env::var("REQUIRE_GPU").is_ok_and(|value| value == "1") => panic!("{error}"),
+        Err(error) => {
+            println!("skipped: {error}");
+            false
+        }
+    }
+}
+
+/// Every pixel of an EXR file.
+fn radiances(folder: &TempDir, name: &str) -> Vec<[f32; 4]> {
+    let image = ImageReader::open(folder.path().join(name)).expect("a file").decode().expect("a picture");
+    image.into_rgba32f().pixels().map(|pixel| pixel.0).collect()
+}
+
+#[test]
+fn a_png_says_how_it_was_made() {
+    if !can_draw() {
+        return;
+    }
+    let folder = folder();
+    let arguments = "render cornell-box -o box.png --element 0.1 --steps 20 --size 64x48 --view patches --seed 9";
+    assert_eq!(printed(&folder, arguments), "");
+    let file = std::fs::File::open(folder.path().join("box.png")).expect("a file");
+    let mut reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().expect("a picture");
+    let mut pixels = vec![0; reader.output_buffer_size().expect("a size")];
+    reader.next_frame(&mut pixels).expect("pixels");
+    reader.finish().expect("the end");
+    let info = reader.info();
+    assert_eq!((info.width, info.height), (64, 48));
+    // Light on most of it, and not all of it white.
+    assert!(pixels.chunks(4).filter(|pixel| pixel[0] > 0).count() > 64 * 48 / 2);
+    assert!(pixels.chunks(4).any(|pixel| pixel[0] < 255));
+    let texts: BTreeMap<&str, &str> =
+        info.uncompressed_latin1_text.iter().map(|chunk| (chunk.keyword.as_str(), chunk.text.as_str())).collect();
+    for (key, value) in [
+        ("Scene", "cornell-box"),
+        ("View", "patches"),
+        ("Method", "progressive radiosity"),
+        ("Element size", "0.1 m"),
+        ("Steps", "20"),
+        ("Seed", "9"),
+    ] {
+        assert_eq!(texts.get(key), Some(&value), "{texts:?}");
+    }
+    assert!(texts["Seconds"].parse::<f64>().is_ok_and(|seconds| seconds > 0.0), "{texts:?}");
+    assert!(texts.contains_key("Exposure") && texts.contains_key("Eye") && texts.contains_key("Software"));
+    assert_eq!(files(folder.path()), ["box.png"]);
+}
+
+#[test]
+fn an_exr_holds_the_radiance_of_the_furnace() {
+    if !can_draw() {
+        return;
+    }
+    let folder = folder();
+    let arguments = "render furnace -o furnace.EXR --size 32x24 --exposure 3 --element 0.0625 --converge 0.01 --json";
+    let report = json(&folder, arguments);
+    assert_eq!(keys(&report["picture"]), ["exposure", "file", "size", "view"]);
+    assert_eq!(report["picture"]["file"], "furnace.EXR");
+    let pixels = radiances(&folder, "furnace.EXR");
+    assert_eq!(pixels.len(), 32 * 24);
+    // L = M_e / ((1 − ρ) π) = 2 / π in every direction, whatever the exposure.
+    let expected = 2.0 / std::f32::consts::PI;
+    for pixel in pixels {
+        assert!(pixel[..3].iter().all(|radiance| (radiance / expected - 1.0).abs() < 0.01), "{pixel:?}");
+    }
+}
+
+#[test]
+fn a_scene_without_emitters_is_black_until_a_light_is_added() {
+    if !can_draw() {
+        return;
+    }
+    let folder = folder();
+    write_dark_scene(&folder);
+    let view = "--size 16x16 --element 0.1 --eye 0.5,0.3,1 --target 0.5,0,0.5";
+    let dark = run(&folder, &format!("render dark.obj -o dark.exr {view}"));
+    assert!(dark.status.success(), "{}", stderr(&dark));
+    assert_contains(stderr(&dark), &["warning: the scene: no surface emits light"]);
+    assert!(radiances(&folder, "dark.exr").iter().all(|pixel| pixel[..3] == [0.0; 3]));
+    let lit = run(&folder, &format!("render dark.obj -o lit.exr --ceiling-light {view}"));
+    assert_eq!((lit.status.code(), stderr(&lit)), (Some(0), ""));
+    let middle = radiances(&folder, "lit.exr")[8 * 16 + 8];
+    assert!(middle[..3].iter().all(|&radiance| radiance > 0.0), "{middle:?}");
+}
+
+#[test]
+fn a_picture_that_cannot_be_written_leaves_nothing_behind() {
+    if !can_draw() {
+        return;
+    }
+    let folder = folder();
+    std::fs::create_dir_all(folder.path().join("taken.png/inside")).expect("a folder");
+    let message = refusal(&folder, "render furnace -o taken.png --element 0.25 --size 8x8 --steps 1", 1);
+    assert_contains(&message, &["cannot write taken.png", "directory"]);
+    assert_eq!(files(folder.path()), ["taken.png"]);
+    assert_eq!(files(&folder.path().join("taken.png")), ["inside"]);
+}
+
+#[test]
+fn a_picture_replaces_one_of_the_same_name_only_when_it_is_whole() {
+    if !can_draw() {
+        return;
+    }
+    let folder = folder();
+    let path = folder.path().join("box.png");
+    std::fs::write(&path, "an older picture").expect("a file");
+    refusal(&folder, "render missing.obj -o box.png", 1);
+    refusal(&folder, "render furnace -o box.png --element 0.25 --steps 1 --size 8x1000000", 1);
+    refusal(&folder, "render furnace -o box.png --element 0.25 --steps 1 --adapter no-such-adapter", 1);
+    assert_eq!(std::fs::read(&path).expect("a file"), b"an older picture");
+    printed(&folder, "render furnace -o box.png --element 0.25 --steps 1 --size 8x8");
+    assert!(std::fs::read(&path).expect("a file").starts_with(b"\x89PNG"));
+    assert_eq!(files(folder.path()), ["box.png"]);
+}
