@@ -1,143 +1,21 @@
 //! The window without a graphics adapter: its panels, found by the labels that a screen reader reads, against a model
 //! made up here.
 
+#[path = "window/stage.rs"]
+mod stage;
+
 use egui::{Key, Modifiers, Rect, Vec2};
 use egui_kittest::Harness;
-use egui_kittest::kittest::{NodeT, Queryable};
+use egui_kittest::kittest::Queryable;
 use lightwell::app::action::{Action, CameraMove};
-use lightwell::app::model::{Dialog, FrameTime, Look, Model, Notice, PathPurpose, SceneFacts, Theme};
-use lightwell::app::{panels, theme};
-use lightwell::math::rgb::Rgb64;
+use lightwell::app::model::{Dialog, Look, Notice, PathPurpose};
+use lightwell::app::{Explorer, theme};
 use lightwell::methods::Settings;
-use lightwell::scene::{Finding, FindingKind, Severity};
-use lightwell::solution::{Closure, Counters, ElementLight, Energy, Solution};
-use lightwell::viewport::View;
+use lightwell::scene::{FindingKind, Severity};
+use lightwell::viewport::{AdapterChoice, Gpu, View};
 use lightwell::worker::{Command, Phase};
-use std::path::PathBuf;
-use std::time::Duration;
-
-/// What a model borrows, and the wishes that came of it.
-struct Stage {
-    phase: Phase,
-    is_open: bool,
-    findings: Vec<Finding>,
-    solution: Option<Solution>,
-    settings: Settings,
-    error: Option<String>,
-    look: Look,
-    theme: Theme,
-    notices: Vec<Notice>,
-    dialog: Option<Dialog>,
-    recent: Vec<PathBuf>,
-    actions: Vec<Action>,
-}
-
-impl Default for Stage {
-    /// A scene is open, and some of its light is shot.
-    fn default() -> Self {
-        Self {
-            phase: Phase::Paused,
-            is_open: true,
-            findings: Vec::new(),
-            solution: Some(solution()),
-            settings: Settings::default(),
-            error: None,
-            look: Look::default(),
-            theme: Theme::Dark,
-            notices: Vec::new(),
-            dialog: None,
-            recent: vec![PathBuf::from("/scenes/attic.obj")],
-            actions: Vec::new(),
-        }
-    }
-}
-
-impl Stage {
-    /// Nothing is open.
-    fn empty() -> Self {
-        Self { phase: Phase::Empty, is_open: false, solution: None, ..Self::default() }
-    }
-
-    fn show(&mut self, ui: &mut egui::Ui) {
-        let facts = SceneFacts {
-            name: "cornell-box",
-            patches: 800,
-            elements: 12_752,
-            radius: 0.5,
-            element_size: 0.0156,
-            findings: &self.findings,
-        };
-        let model = Model {
-            phase: &self.phase,
-            scene: self.is_open.then_some(facts),
-            solution: self.solution.as_ref(),
-            settings: self.settings,
-            error: self.error.as_deref(),
-            look: self.look,
-            viewport_size: [952, 646],
-            exposure_ev: 1.3,
-            theme: self.theme,
-            recent: &self.recent,
-            notices: &self.notices,
-            dialog: self.dialog.as_ref(),
-            adapter: ADAPTER,
-            frame_time: FrameTime::default(),
-        };
-        panels::show(ui, &model, &mut self.actions, |_, _| {});
-    }
-
-    /// The window of this stage, after its layout has settled.
-    fn window(self, size: Vec2) -> Harness<'static, Self> {
-        let theme = self.theme;
-        let mut harness = Harness::builder()
-            .with_size(size)
-            .with_theme(theme)
-            .with_context_setup(theme::install)
-            .build_ui_state(|ui, stage: &mut Self| stage.show(ui), self);
-        harness.run();
-        harness.state_mut().actions.clear();
-        harness
-    }
-
-    fn small(self) -> Harness<'static, Self> {
-        self.window(SMALL)
-    }
-}
-
-/// The smallest that the window can be made.
-const SMALLEST: Vec2 = Vec2::new(960.0, 600.0);
-const SMALL: Vec2 = Vec2::new(1280.0, 800.0);
-const LARGE: Vec2 = Vec2::new(1920.0, 1080.0);
-
-const ADAPTER: &str = "llvmpipe (LLVM 15.0.6, 256 bits) (vulkan)";
-
-/// Height of the status line.
-const STATUS_LINE: f32 = 32.0;
-
-/// 10 W emitted, of which 6 W are absorbed, 3 W unshot and 1 W escaped.
-fn solution() -> Solution {
-    let watts = |red: f64| Rgb64::new(red, 0.0, 0.0);
-    Solution {
-        steps: 1_234,
-        elapsed: Duration::from_millis(2_500),
-        converged: false,
-        energy: Energy { emitted: watts(10.0), absorbed: watts(6.0), unshot: watts(3.0), escaped: watts(1.0) },
-        closure: Closure { mean: 0.0123, worst: 0.07 },
-        counters: Counters { rays: 31_000_000, ..Counters::default() },
-        shooter: None,
-        light: ElementLight::default(),
-    }
-}
-
-fn finding(kind: FindingKind, severity: Severity) -> Finding {
-    Finding {
-        severity,
-        kind,
-        subject: "object 'lamp', line 12".to_owned(),
-        problem: "the face has no area".to_owned(),
-        remedy: "left out".to_owned(),
-    }
-}
+use stage::{LARGE, SMALL, SMALLEST, Stage, crowded, finding, solution, texts};
+use std::time::{Duration, Instant};
 
 /// What one key asks for.
 fn key(stage: Stage, modifiers: Modifiers, key: Key) -> Vec<Action> {
@@ -153,6 +31,36 @@ fn click(stage: Stage, label: &str) -> Vec<Action> {
     harness.get_by_label(label).click();
     harness.run();
     std::mem::take(&mut harness.state_mut().actions)
+}
+
+/// Frames until one of them shows this label.
+fn wait_for(harness: &mut Harness<Explorer>, label: &str) {
+    let deadline = Instant::now() + Duration::from_secs(60);
+    while harness.query_by_label(label).is_none() {
+        assert!(Instant::now() < deadline, "`{label}` did not come on show");
+        std::thread::sleep(Duration::from_millis(10));
+        harness.step();
+    }
+}
+
+/// The whole program, with its solver thread and its viewport: a scene comes on show, light spreads, the picture shows it.
+#[test]
+fn the_window_shows_the_light_of_a_scene() {
+    if let Err(error) = Gpu::new(&AdapterChoice::Software) {
+        assert!(std::env::var("REQUIRE_GPU").map_or(true, |value| value != "1"), "{error}");
+        println!("skipped: {error}");
+        return;
+    }
+    let builder = Harness::builder().with_size(SMALL).wgpu();
+    let mut harness = builder.build_eframe(|context| Explorer::new(context, "furnace".to_owned()).unwrap());
+    wait_for(&mut harness, "furnace");
+    let middle = harness.get_by_label("Viewport").rect().center();
+    harness.key_press(Key::Space);
+    wait_for(&mut harness, "Progress: Converged");
+    let picture = harness.render().unwrap();
+    let shown = picture.get_pixel(middle.x as u32, middle.y as u32).0;
+    // Every surface of the furnace is grey and has a radiance of 2/π, which no tone curve shows darker than the background.
+    assert!(shown[0] > 64 && shown[0] == shown[1] && shown[1] == shown[2], "{shown:?}");
 }
 
 #[test]
@@ -423,36 +331,6 @@ fn nothing_is_asked_for_while_nobody_does_anything() {
         harness.run();
         assert_eq!(harness.state().actions, []);
     }
-}
-
-/// The widest figures that can come up: watts of a large scene, many rays, a long run.
-fn crowded() -> Stage {
-    let mut solution = solution();
-    solution.steps = 1_234_567;
-    solution.elapsed = Duration::from_secs(7_500);
-    solution.counters.rays = 987_654_321_012;
-    let findings = vec![finding(FindingKind::DegenerateFace, Severity::Warning); 20];
-    let error = Some("cannot read a scene with a long name in a folder with an even longer name: no such file".into());
-    let notices =
-        vec![Notice { id: 0, text: "Saved lightwell-cornell-box-1.png".into(), is_error: false, until: None }];
-    Stage { solution: Some(solution), findings, error, notices, ..Stage::default() }
-}
-
-/// Every text on show and where it is, without the part of the side panel that has to be scrolled to.
-fn texts(harness: &Harness<Stage>, size: Vec2) -> Vec<(String, Rect)> {
-    let nodes = harness.root().children_recursive();
-    let text = |node: egui_kittest::Node| {
-        let accesskit_node = node.accesskit_node();
-        let bounds = accesskit_node.bounding_box()?;
-        let min = egui::pos2(bounds.x0 as f32, bounds.y0 as f32);
-        let rect = Rect::from_min_max(min, egui::pos2(bounds.x1 as f32, bounds.y1 as f32));
-        let is_label = accesskit_node.role() == egui::accesskit::Role::Label;
-        let text = accesskit_node.value().filter(|text| is_label && !text.is_empty())?;
-        let is_in_side_panel = min.x > size.x - 320.0 && min.y > 80.0 && text != ADAPTER;
-        let is_scrolled_away = is_in_side_panel && rect.bottom() > size.y - STATUS_LINE;
-        (!is_scrolled_away).then_some((text, rect))
-    };
-    nodes.filter_map(text).collect()
 }
 
 #[test]

@@ -238,7 +238,7 @@ impl eframe::App for Explorer {
         eframe::set_value(storage, Preferences::KEY, &self.preferences);
     }
 
-    /// The layout is the same at every start; what is kept is in [`Preferences`].
+    /// The layout is the same at every start; what is kept is in the preferences.
     fn persist_egui_memory(&self) -> bool {
         false
     }

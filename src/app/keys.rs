@@ -122,8 +122,8 @@ impl Focus {
     }
 }
 
-/// Takes the keys that were pressed in this frame. `before` is the focus that the frame began with: a field that is left
-/// by Enter owns what was typed in the same frame. While a dialog is open, no key reaches the window behind it.
+/// Takes the keys that were pressed in this frame. `before` is the focus that the frame began with: a field that is
+/// left by Enter owns what was typed in the same frame. While a dialog is open, no key reaches the window behind it.
 pub fn read(ctx: &egui::Context, before: Focus, model: &Model, actions: &mut Vec<Action>) {
     let focus = [before, Focus::of(ctx)];
     if focus.contains(&Focus::Text) || model.dialog.is_some() {

@@ -36,7 +36,8 @@ pub struct Options {
 #[derive(Debug, thiserror::Error)]
 pub enum AppError {
     #[error(
-        "there is no display to open a window on ({0}); without one, `lightwell render SCENE -o FILE.png` writes a picture"
+        "there is no display to open a window on ({0}); \
+         without one, `lightwell render SCENE -o FILE.png` writes a picture"
     )]
     NoDisplay(String),
     #[error("{0}")]
@@ -58,6 +59,7 @@ pub fn run(options: Options) -> Result<(), AppError> {
         viewport: egui::ViewportBuilder::default()
             .with_title("Lightwell")
             .with_app_id("lightwell")
+            .with_icon(theme::icon())
             .with_inner_size([1280.0, 800.0])
             .with_min_inner_size([960.0, 600.0]),
         wgpu_options: wgpu_configuration(options.adapter),

@@ -1,4 +1,4 @@
-//! What the panels show. They read a [`Model`] and return [`super::Action`]s; nothing here can be changed by them.
+//! What the panels show. They read a [`Model`] and return [`super::action::Action`]s; nothing here can be changed by them.
 
 use crate::cli::picture::Format;
 use crate::math::rgb::Rgb64;
@@ -47,8 +47,8 @@ impl Model<'_> {
         *self.phase == Phase::Running
     }
 
-    /// How far the light is between the emitters (0) and the stop limit (1), on a logarithmic scale: shooting takes about
-    /// as long from 10 % to 1 % of unshot flux as from 100 % to 10 %.
+    /// How far the light is between the emitters (0) and the stop limit (1), on a logarithmic scale: shooting takes
+    /// about as long from 10 % to 1 % of unshot flux as from 100 % to 10 %.
     pub fn progress(&self) -> f32 {
         let Some(solution) = self.solution.filter(|solution| solution.energy.emitted != Rgb64::ZERO) else {
             return 0.0;

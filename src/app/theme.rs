@@ -1,6 +1,8 @@
 //! Colours, type and spacing. Distances are multiples of 4, so that everything lines up.
 
-use egui::{Color32, CornerRadius, FontFamily, FontId, Margin, Stroke, Style, TextStyle, Theme, Visuals, vec2};
+use egui::{
+    Color32, CornerRadius, FontFamily, FontId, IconData, Margin, Stroke, Style, TextStyle, Theme, Visuals, vec2,
+};
 
 /// The grid that every distance is a multiple of.
 pub const UNIT: f32 = 4.0;
@@ -55,6 +57,20 @@ const LIGHT: Palette = Palette {
     error: Color32::from_rgb(0xb3, 0x26, 0x1e),
     notice: Color32::from_rgb(0xff, 0xff, 0xff),
 };
+
+/// The window's icon: a glow on a dark ground.
+pub fn icon() -> IconData {
+    const SIDE: u32 = 64;
+    let ground = DARK.notice;
+    let pixel = |index: u32| {
+        let [x, y] = [index % SIDE, index / SIDE].map(|i| (i as f32 + 0.5) / SIDE as f32 - 0.5);
+        let distance = x.hypot(y);
+        let glow = (1.0 - ((distance - 0.16) / 0.3).clamp(0.0, 1.0)).powi(2);
+        let [r, g, b, _] = ground.lerp_to_gamma(DARK.accent, glow).to_array();
+        [r, g, b, if distance < 0.5 { 255 } else { 0 }]
+    };
+    IconData { rgba: (0..SIDE * SIDE).flat_map(pixel).collect(), width: SIDE, height: SIDE }
+}
 
 fn style(theme: Theme) -> Style {
     let mut style = Style { visuals: visuals(theme), ..Style::default() };

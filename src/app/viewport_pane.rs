@@ -9,7 +9,7 @@ use crate::worker::Snapshot;
 use crate::world::World;
 use eframe::egui_wgpu::{Callback, CallbackResources, CallbackTrait, RenderState, ScreenDescriptor};
 use eframe::{egui_wgpu, wgpu};
-use egui::{PaintCallbackInfo, Rect, Ui};
+use egui::{PaintCallbackInfo, Rect, Ui, Vec2};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -53,8 +53,8 @@ impl ViewportPane {
         self.size
     }
 
-    /// Uploads what is new in the snapshot. Another scene gets its own first view; the same one with another mesh, or read
-    /// again, keeps the camera. Returns whether another scene came on show.
+    /// Uploads what is new in the snapshot. Another scene gets its own first view; the same one with another mesh, or
+    /// read again, keeps the camera. Returns whether another scene came on show.
     pub fn follow(&mut self, snapshot: &Snapshot) -> bool {
         let Some(world) = &snapshot.world else { return false };
         let mut renderer = self.render_state.renderer.write();
@@ -131,8 +131,10 @@ impl ViewportPane {
 
     /// Has the scene painted into `rect`.
     pub fn paint(&mut self, ui: &Ui, rect: Rect, look: &Look) {
-        let pixels = rect.size() * ui.pixels_per_point();
-        self.size = [pixels.x.round().max(1.0) as u32, pixels.y.round().max(1.0) as u32];
+        // As egui rounds it: the edges go to whole pixels, not the size.
+        let [min, max] = [rect.min, rect.max].map(|corner| corner.to_vec2() * ui.pixels_per_point());
+        let pixels = (max.round() - min.round()).max(Vec2::splat(1.0));
+        self.size = [pixels.x as u32, pixels.y as u32];
         if let Some(frame) = self.frame(look, self.size) {
             ui.painter().add(Callback::new_paint_callback(rect, ScenePainter { frame }));
         }

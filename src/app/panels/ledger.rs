@@ -120,8 +120,8 @@ fn defect(ui: &mut Ui, energy: &Energy, emitted: f64) {
         ui,
         "Defect",
         RichText::new(text).color(color),
-        "Emitted less absorbed, unshot and escaped. It is rounding only; anything larger than a millionth of the emitted \
-         flux would be a fault in the program.",
+        "Emitted less absorbed, unshot and escaped. It is rounding only; anything larger than a millionth of the \
+         emitted flux would be a fault in the program.",
     );
 }
 

@@ -1,5 +1,5 @@
-//! What the solver is told: how finely to cut, how many rays to trace, when to stop. A slider takes effect when it is let
-//! go, a number when it is entered.
+//! What the solver is told: how finely to cut, how many rays to trace, when to stop. A slider takes effect when it is
+//! let go, a number when it is entered.
 
 use super::widgets::{labelled, row, slider};
 use crate::app::action::Action;
