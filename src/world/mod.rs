@@ -69,14 +69,13 @@ impl World {
     pub fn build(mut scene: Scene, settings: &MeshSettings, cancel: &Cancel) -> Result<Self, WorldError> {
         let mut tracer = Tracer::new(&triangles(&scene));
         let mut findings = emitters::turn(&mut scene, &tracer);
-        let moved = emitters::move_off_walls(&mut scene);
-        if !moved.is_empty() {
+        findings.extend(emitters::move_off_walls(&mut scene));
+        if !findings.is_empty() {
             tracer = Tracer::new(&triangles(&scene));
         }
-        findings.extend(moved);
         let surfaces = Surfaces::new(&scene);
         let bounds = Bounds::of(surfaces.corners());
-        let start = scene.viewpoint.unwrap_or_else(|| viewpoint::from_outside(&bounds));
+        let start = scene.viewpoint.unwrap_or_else(|| viewpoint::most_open(&bounds, &tracer));
         let Reach { is_reached, is_closed, rooms } = sides::explore(&scene, &surfaces, &tracer, start.eye, cancel)?;
         findings.extend(emitters::hidden(&scene, &surfaces, &tracer));
         scene.findings.extend::<Vec<Finding>>(findings);

@@ -22,9 +22,17 @@ const GRID: usize = 16;
 const INSIDE_PLACES: usize = 48;
 const INSIDE_DIRECTIONS: usize = 8;
 
-/// From the front, at a distance from which the whole box fits into the picture.
-pub fn from_outside(bounds: &Bounds) -> Viewpoint {
-    outside(bounds, Vec3::Z)
+/// The view from outside in which most rays pass the middle of the scene before they meet something: into a room that
+/// is open to one side, or down on a floor.
+pub fn most_open(bounds: &Bounds, tracer: &Tracer) -> Viewpoint {
+    let openness = |view: &Viewpoint| {
+        let middle = view.eye.distance(view.target);
+        rays(view).filter(|ray| tracer.closest(ray).is_some_and(|hit| hit.distance > middle)).count()
+    };
+    let judged = outside_views(bounds).map(|view| (openness(&view), view));
+    // The first of several that are equally open: from the front.
+    let best = judged.reduce(|best, next| if next.0 > best.0 { next } else { best });
+    best.map_or_else(|| outside(bounds, Vec3::Z), |best| best.1)
 }
 
 /// The best view: from outside where the scene is open to that side, else from within. `is_reached` tells for each
@@ -37,17 +45,21 @@ pub fn choose(
     rooms: &[Place],
 ) -> Viewpoint {
     let judge = Judge { surfaces, tracer, is_reached };
-    let tilted = |degrees: f32| Quat::from_rotation_y(degrees.to_radians()) * Vec3::new(0.0, 0.35, 1.0);
-    let directions =
-        [Vec3::Z, Vec3::X, Vec3::NEG_X, Vec3::NEG_Z].into_iter().chain([30.0, -30.0, 150.0, 210.0].map(tilted));
-    let outside = directions.map(|direction| outside(bounds, direction));
-    let judged = outside.map(|view| (judge.open_share(&view), view));
+    let judged = outside_views(bounds).map(|view| (judge.open_share(&view), view));
     // The first of several that are equally good: from the front.
     let best = judged.reduce(|best, next| if next.0 > best.0 + 0.05 { next } else { best });
     match best {
         Some((share, view)) if share >= OPEN_SHARE || rooms.is_empty() => view,
         _ => inside(bounds, &judge, rooms),
     }
+}
+
+/// Views from all sides, the front first: level ones, and some from above.
+fn outside_views(bounds: &Bounds) -> impl Iterator<Item = Viewpoint> {
+    let tilted = |degrees: f32| Quat::from_rotation_y(degrees.to_radians()) * Vec3::new(0.0, 0.35, 1.0);
+    let level = [Vec3::Z, Vec3::X, Vec3::NEG_X, Vec3::NEG_Z];
+    let directions = level.into_iter().chain([30.0, -30.0, 150.0, 210.0].map(tilted));
+    directions.map(|direction| outside(bounds, direction))
 }
 
 /// From this direction, as near as shows every corner of the box in a square picture.
@@ -88,7 +100,7 @@ fn inside(bounds: &Bounds, judge: &Judge, rooms: &[Place]) -> Viewpoint {
     let judged = views.map(|view| (judge.depth(&view, bounds.radius()), view));
     judged
         .reduce(|best, next| if next.0 > best.0 { next } else { best })
-        .map_or_else(|| from_outside(bounds), |best| best.1)
+        .map_or_else(|| outside(bounds, Vec3::Z), |best| best.1)
 }
 
 /// Looks at the scene through a few rays.

@@ -1,0 +1,65 @@
+//! Irradiance read off a solution.
+
+use crate::build_with;
+use crate::obj::Obj;
+use glam::{Vec3, Vec3A};
+use lightwell::math::rgb::Rgb;
+use lightwell::methods::radiosity::Radiosity;
+use lightwell::methods::{Method, Settings};
+use lightwell::solution::{Solution, SurfaceProbe};
+use lightwell::world::World;
+use std::sync::Arc;
+
+/// Linear in the coordinates, another one in each channel.
+fn field(point: Vec3A) -> Rgb {
+    Rgb::new(1.0 + point.x - 0.5 * point.z, 2.0 + point.y + point.z, 3.0 - point.x - 0.25 * point.y)
+}
+
+/// A solution with the field's value in the middle of every element.
+fn solution(world: &Arc<World>) -> Solution {
+    let mut solution = Radiosity::new(world.clone(), Settings::default()).solution();
+    solution.light.irradiance = world.mesh.elements.iter().map(|element| field(element.center)).collect();
+    solution
+}
+
+/// A closed room with a floor of two triangles; everything else is quads.
+fn room() -> Arc<World> {
+    let obj = Obj::new().object("room", "glow").room_open_to(Vec3::NEG_Y, Vec3::ZERO, Vec3::ONE);
+    let obj = obj.face([Vec3::ZERO, Vec3::Z, Vec3::new(1.0, 0.0, 1.0)]);
+    Arc::new(build_with(obj.face([Vec3::ZERO, Vec3::new(1.0, 0.0, 1.0), Vec3::X]).open(), 0.125))
+}
+
+#[test]
+fn a_linear_field_is_interpolated_exactly() {
+    let world = room();
+    let probe = SurfaceProbe::new(&world, &solution(&world));
+    // Away from the edges of a side, whose vertices have no elements on the far side to balance the mean.
+    for i in 0..40 {
+        let (u, v) = (0.13 + 0.74 * i as f32 / 39.0, 0.13 + 0.74 * (0.37 * i as f32).fract());
+        for (point, normal) in [
+            (Vec3A::new(u, 0.0, v), Vec3A::Y),
+            (Vec3A::new(u, 0.0, u), Vec3A::Y),
+            (Vec3A::new(u, 1.0, v), Vec3A::NEG_Y),
+            (Vec3A::new(0.0, u, v), Vec3A::X),
+            (Vec3A::new(u, v, 1.0), Vec3A::NEG_Z),
+        ] {
+            let got = probe.irradiance(point, normal).expect("a surface");
+            // Rounding of a few operations in single precision on numbers up to 4.
+            assert!((got - field(point)).abs().max_element() < 1e-5, "at {point}: {got} for {}", field(point));
+        }
+    }
+}
+
+#[test]
+fn there_is_no_irradiance_where_there_is_no_lit_surface() {
+    let world = room();
+    let probe = SurfaceProbe::new(&world, &solution(&world));
+    for (point, normal) in [
+        (Vec3A::splat(0.5), Vec3A::Y),
+        (Vec3A::new(0.5, 0.05, 0.5), Vec3A::Y),
+        (Vec3A::new(0.5, 0.0, 0.5), Vec3A::NEG_Y),
+        (Vec3A::splat(5.0), Vec3A::Y),
+    ] {
+        assert_eq!(probe.irradiance(point, normal), None, "at {point} facing {normal}");
+    }
+}
