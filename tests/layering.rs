@@ -41,6 +41,7 @@ const CRATES: &[(&str, &[&str])] = &[
     ("earcut", &["scene"]),
     ("obvhs", &["tracer"]),
     ("rayon", &["mesh", "tracer", "world", "methods", "accuracy", "worker"]),
+    ("thread_priority", &["worker"]),
     ("kiddo", &["methods"]),
     // The picture.
     ("wgpu", &["viewport", "app"]),

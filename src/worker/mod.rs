@@ -5,6 +5,7 @@
 
 mod command;
 mod mailbox;
+mod pool;
 mod run;
 mod solver;
 
@@ -87,7 +88,8 @@ impl Worker {
         let mailbox = Arc::new(Mailbox::default());
         let slot = Arc::new(Slot { latest: Mutex::default(), wake: Box::new(wake) });
         let solver = Solver::new(mailbox.clone(), slot.clone(), start_method);
-        let thread = std::thread::Builder::new().name("solver".to_owned()).spawn(move || solver.serve());
+        let thread =
+            std::thread::Builder::new().name("solver".to_owned()).spawn(|| pool::in_background(|| solver.serve()));
         Self { mailbox, slot, thread: Some(thread.expect("the system can start a thread")) }
     }
 

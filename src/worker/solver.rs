@@ -3,6 +3,7 @@
 use super::mailbox::{Mail, Mailbox};
 use super::{Command, Phase, Run, Slot, Snapshot, StartMethod};
 use crate::errors::with_causes;
+use crate::mesh::MeshSettings;
 use crate::methods::{Settings, Step};
 use crate::scene::Scene;
 use crate::world::{World, WorldError};
@@ -64,7 +65,15 @@ impl Solver {
         let before = self.snapshot.phase.clone();
         self.snapshot.phase = Phase::Loading(name.to_owned());
         self.publish();
+        let old_mesh = self.snapshot.settings.mesh;
+        if self.snapshot.world.is_some() {
+            // A size in metres that suits one scene may be far too fine for another.
+            self.snapshot.settings.mesh = MeshSettings::default();
+        }
         let built = Scene::open(name).map_err(|error| with_causes(&error)).and_then(|scene| self.build(scene));
+        if built.is_err() {
+            self.snapshot.settings.mesh = old_mesh;
+        }
         self.take_over(built, before);
     }
 
