@@ -65,11 +65,11 @@ impl Receivers {
     pub fn gather(&self, shot: &Shot, form_factors: &mut [f64]) -> Work {
         gather(&self.batches, shot, form_factors)
     }
+}
 
-    /// Σ A_e F_e, m², in one fixed order.
-    pub fn row_sum(&self, mesh: &Mesh, form_factors: &[f64]) -> f64 {
-        mesh.elements.iter().zip(form_factors).map(|(element, form_factor)| element.area * form_factor).sum()
-    }
+/// Σ A_e F_e, m², in one fixed order.
+pub fn row_sum(mesh: &Mesh, form_factors: &[f64]) -> f64 {
+    mesh.elements.iter().zip(form_factors).map(|(element, form_factor)| element.area * form_factor).sum()
 }
 
 /// Halves the batches until one is left, so that every core has work and nothing is allocated.

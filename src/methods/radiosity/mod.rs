@@ -19,7 +19,7 @@ use crate::solution::{Counters, ElementLight, Energy, Solution};
 use crate::world::World;
 use escape::{ESCAPE_RAYS, escaping_share};
 use form_factor::Shooter;
-use gather::{Receivers, Shot};
+use gather::{Receivers, Shot, row_sum};
 use ledger::Ledger;
 use std::sync::Arc;
 use std::time::Duration;
@@ -109,7 +109,7 @@ impl Radiosity {
         let shot = std::mem::replace(&mut self.unshot[patch], Rgb64::ZERO);
         let Mesh { patches, elements, .. } = &self.world.mesh;
         let area = patches[patch].area;
-        let row = self.receivers.row_sum(&self.world.mesh, &self.form_factors) / area;
+        let row = row_sum(&self.world.mesh, &self.form_factors) / area;
         let shot_scaled = shot * self.ledger.close_row(shot * area, row, escaping);
         for ((receiver, unshot), reflectance) in patches.iter().zip(&mut self.unshot).zip(&self.reflectance) {
             let range = receiver.elements.start as usize..receiver.elements.end as usize;
