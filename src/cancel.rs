@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Shared between whoever asks and whoever works. Workers poll it every few hundred microseconds.
+/// Shared between whoever asks and whoever works. Workers poll it every few milliseconds.
 #[derive(Clone, Debug, Default)]
 pub struct Cancel(Arc<AtomicBool>);
 

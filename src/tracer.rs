@@ -126,9 +126,11 @@ impl Tracer {
     }
 }
 
-/// The power of two that brings `half_extent` into (256, 512]; 1 for a scene without extent.
+/// The power of two that brings `half_extent` into (256, 512]; 1 for a scene without extent. Below 1e-36 it is the largest
+/// that there is.
 fn frame_scale(half_extent: f32) -> f32 {
-    if half_extent > 0.0 { (FRAME_HALF_EXTENT / half_extent).log2().floor().exp2() } else { 1.0 }
+    let largest = (f32::MAX_EXP - 1) as f32;
+    if half_extent > 0.0 { (FRAME_HALF_EXTENT / half_extent).log2().floor().min(largest).exp2() } else { 1.0 }
 }
 
 /// Adding zero turns −0 into +0: the hierarchy takes the sign of a component in two ways that differ for −0.

@@ -9,6 +9,7 @@ use crate::viewport::{AdapterChoice, Exposure, Frame, Gpu, ToneCurve, View, rend
 use crate::world::World;
 use glam::Vec3;
 use serde_json::json;
+use std::io::Write;
 use std::path::PathBuf;
 
 #[derive(clap::Args, Debug)]
@@ -81,7 +82,7 @@ pub fn run(options: &Options) -> Result<(), CliError> {
             "view": options.view.to_string(),
             "exposure": frame.exposure_ev,
         });
-        println!("{report}");
+        writeln!(std::io::stdout(), "{report}")?;
     }
     Ok(())
 }

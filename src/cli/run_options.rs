@@ -76,7 +76,8 @@ impl RunOptions {
         warn_of(&world.scene.findings);
         let settings = self.settings();
         let mut run = Run::start(world.clone(), &settings);
-        let time = self.time.map_or(Duration::MAX, Duration::from_secs_f64);
+        // More seconds than a duration holds are no limit.
+        let time = self.time.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok()).unwrap_or(Duration::MAX);
         let mut steps_left = self.steps.unwrap_or(u64::MAX);
         while steps_left > 0 && run.elapsed() < time && run.step(&Cancel::default()) == Step::Advanced {
             steps_left -= 1;

@@ -46,26 +46,6 @@ pub fn sobol2(index: u32, pair: u32, seed: u32) -> Vec2 {
     Vec2::new(x, y)
 }
 
-/// The first `N` points of Roberts' R2 sequence (2018): evenly spread over [0, 1)² at every length.
-pub const fn r2_points<const N: usize>() -> [Vec2; N] {
-    // 1/p and 1/p², where p = 1.3247… solves p³ = p + 1.
-    const STEP: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_3];
-    let mut points = [Vec2::ZERO; N];
-    let mut i = 0;
-    while i < N {
-        let (x, y) = (0.5 + STEP[0] * i as f64, 0.5 + STEP[1] * i as f64);
-        points[i] = Vec2::new((x - x.floor()) as f32, (y - y.floor()) as f32);
-        i += 1;
-    }
-    points
-}
-
-/// Shifts a point of [0, 1)² by another one, round the edges (Cranley, Patterson 1976).
-pub fn rotate(point: Vec2, shift: Vec2) -> Vec2 {
-    let sum = point + shift;
-    sum - sum.floor()
-}
-
 /// 2^64 divided by the golden ratio, made odd.
 const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
 
@@ -110,13 +90,5 @@ mod tests {
             cells[point.y as usize * 8 + point.x as usize] += 1;
         }
         assert_eq!(cells, [1; 64]);
-    }
-
-    #[test]
-    fn rotation_stays_in_the_unit_square() {
-        for point in r2_points::<256>() {
-            let turned = rotate(point, Vec2::new(0.999_999_9, 0.5));
-            assert!(turned.min_element() >= 0.0 && turned.max_element() < 1.0, "{turned}");
-        }
     }
 }

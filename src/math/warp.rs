@@ -1,7 +1,7 @@
-//! Maps from the unit square to shapes, each with its density and its inverse where one is needed.
+//! Maps from the unit square to shapes.
 
 use glam::{Mat3A, Vec2, Vec3A};
-use std::f32::consts::{FRAC_PI_4, PI};
+use std::f32::consts::FRAC_PI_4;
 
 /// An orthonormal right-handed frame whose z axis is the unit vector `normal` (Duff et al. 2017).
 pub fn frame(normal: Vec3A) -> Mat3A {
@@ -33,11 +33,6 @@ pub fn disc(point: Vec2) -> Vec2 {
 pub fn cosine_hemisphere(point: Vec2) -> Vec3A {
     let on_disc = disc(point);
     Vec3A::new(on_disc.x, on_disc.y, (1.0 - on_disc.length_squared()).max(0.0).sqrt())
-}
-
-/// Density of [`cosine_hemisphere`] per steradian.
-pub fn cosine_hemisphere_density(cosine: f32) -> f32 {
-    cosine.max(0.0) / PI
 }
 
 /// Barycentric weights of the second and third corner of a triangle, uniform by area (Heitz 2019: no folded square).

@@ -14,8 +14,8 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// The grid in which no edge of an element is longer than `element_size`, and no patch has more than
-    /// `elements_per_patch` elements along an edge.
+    /// The grid in which no edge of an element (of a triangle, all but the longest) is longer than `element_size`,
+    /// and no patch has more than `elements_per_patch` elements along an edge.
     pub fn fit(shape: &Shape, element_size: f64, elements_per_patch: u32) -> Self {
         let cells = shape.edge_lengths().map(|length| (length / element_size).ceil().max(1.0) as u32);
         let patches = cells.map(|count| count.div_ceil(elements_per_patch));

@@ -57,7 +57,7 @@ impl Energy {
     }
 }
 
-/// How far the rows of form factors were from closing before they were scaled: |ΣF + escaped + hidden − 1| of each shot.
+/// How far the rows of form factors were from closing before they were scaled: |ΣF + escaped − 1| of each shot.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Closure {
     pub mean: f64,

@@ -1,13 +1,13 @@
 //! Emitters that shine the wrong way, lie in a wall, or light nothing.
 
-use super::TOUCHING;
 use super::sides::emitting_sides;
 use super::surface::Surfaces;
+use super::{TOUCHING, triangles};
 use crate::math::bounds::Bounds;
 use crate::math::random::Stream;
 use crate::mesh::side_index;
 use crate::scene::{Finding, FindingKind, Polygon, Scene, Severity};
-use crate::tracer::Tracer;
+use crate::tracer::{Ray, Tracer};
 use glam::{Vec3, Vec3A};
 
 /// Rays that look out from one side of an emitter.
@@ -65,13 +65,15 @@ fn open_view(scene: &Scene, surfaces: &Surfaces, tracer: &Tracer, side: usize) -
 pub fn move_off_walls(scene: &mut Scene) -> Vec<Finding> {
     let surfaces = Surfaces::new(scene);
     let radius = Bounds::of(surfaces.corners()).radius();
+    let emits = |polygon: u32| scene.materials[scene.polygons[polygon as usize].material as usize].is_emitter();
+    // Without the emitters, a ray down on one meets what lies behind it.
+    let mut walls = triangles(scene);
+    walls.retain(|&(polygon, _)| !emits(polygon));
+    let walls = Tracer::new(&walls);
     let mut findings = Vec::new();
     for front in emitting_sides(scene) {
         let polygon = front / 2;
-        let Some(wall) = (0..surfaces.len()).find(|&other| covers(&surfaces, other, polygon, SAME_PLANE * radius))
-        else {
-            continue;
-        };
+        let Some(wall) = wall_behind(&surfaces, &walls, front, SAME_PLANE * radius) else { continue };
         let step = Vec3::from(surfaces.normal(front)) * (STEP * radius);
         move_polygon(scene, polygon, step);
         findings.push(Finding {
@@ -85,22 +87,17 @@ pub fn move_off_walls(scene: &mut Scene) -> Vec<Finding> {
     findings
 }
 
-/// Whether `wall` lies in the plane of `polygon`, within `tolerance`, and holds its centre.
-fn covers(surfaces: &Surfaces, wall: usize, polygon: usize, tolerance: f32) -> bool {
-    if wall == polygon {
-        return false;
-    }
-    let corners = surfaces.corners_of(polygon);
-    let normal = surfaces.normal(side_index(wall as u32, true));
-    let wall_corners = surfaces.corners_of(wall);
-    if corners.iter().any(|&corner| (corner - wall_corners[0]).dot(normal).abs() > tolerance) {
-        return false;
-    }
+/// The polygon of `walls` that holds the emitter's centre and lies in its plane, within `tolerance`, m.
+fn wall_behind(surfaces: &Surfaces, walls: &Tracer, front: usize, tolerance: f32) -> Option<usize> {
+    let corners = surfaces.corners_of(front / 2);
     let center = corners.iter().sum::<Vec3A>() / corners.len() as f32;
-    wall_corners.iter().enumerate().all(|(i, &from)| {
-        let to = wall_corners[(i + 1) % wall_corners.len()];
-        (to - from).cross(center - from).dot(normal) > 0.0
-    })
+    let normal = surfaces.normal(front);
+    let distance = tolerance + walls.offset();
+    let hit = walls.closest(&Ray { origin: center + distance * normal, direction: -normal })?;
+    let (wall, wall_normal) = (hit.polygon as usize, surfaces.normal(side_index(hit.polygon, true)));
+    let on_wall = surfaces.corners_of(wall)[0];
+    let is_in_plane = corners.iter().all(|&corner| (corner - on_wall).dot(wall_normal).abs() <= tolerance);
+    is_in_plane.then_some(wall)
 }
 
 /// Gives the polygon corners of its own, since others may share the old ones.

@@ -19,7 +19,8 @@ use glam::{Vec3, Vec3A};
 use rayon::prelude::*;
 use std::collections::HashMap;
 
-/// Walks of light from emitters, and the bounces of each.
+/// Walks of light from emitters, and the bounces of each. Every emitter gets a walk; where that makes more of them, each
+/// is shorter.
 const LIGHT_WALKS: usize = 4096;
 const LIGHT_BOUNCES: usize = 16;
 /// Walks from a shell that no light walk touched, and the bounces of each. Scenes with very many shells share out
@@ -54,12 +55,15 @@ pub fn explore(
 ) -> Result<Reach, Cancelled> {
     let shells = shells(scene, surfaces);
     let emitters: Vec<usize> = emitting_sides(scene);
+    let walks = LIGHT_WALKS.max(emitters.len());
     let walks: Vec<Walk> =
-        (0..LIGHT_WALKS).into_par_iter().map(|i| light_walk(i, &emitters, surfaces, tracer, eye)).collect();
+        (0..walks).into_par_iter().map(|i| light_walk(i, walks, &emitters, surfaces, tracer, eye)).collect();
     let light: Vec<Place> = walks.iter().flat_map(|walk| walk.places.iter().copied()).collect();
     let mut is_shell_reached = vec![false; shells.count];
+    let mut is_touched = vec![false; 2 * surfaces.len()];
     for place in &light {
         is_shell_reached[shells.of_side[place.side]] = true;
+        is_touched[place.side] = true;
     }
     let mut members = vec![Vec::new(); shells.count];
     for (side, &shell) in shells.of_side.iter().enumerate() {
@@ -83,7 +87,7 @@ pub fn explore(
             is_shell_reached[shells.of_side[side]]
                 && !cancel.is_requested()
                 && has_room(side, near, surfaces, tracer)
-                && looks_at_something(side, surfaces, tracer)
+                && (is_touched[side] || looks_at_something(side, &light, surfaces, tracer))
         })
         .collect();
     for &side in &emitters {
@@ -110,7 +114,9 @@ struct Walk {
     escaped: bool,
 }
 
-fn light_walk(index: usize, emitters: &[usize], surfaces: &Surfaces, tracer: &Tracer, eye: Vec3) -> Walk {
+/// Number `index` of so many walks.
+fn light_walk(index: usize, walks: usize, emitters: &[usize], surfaces: &Surfaces, tracer: &Tracer, eye: Vec3) -> Walk {
+    let bounces = (LIGHT_WALKS * LIGHT_BOUNCES / walks).max(1);
     let mut stream = Stream::new(0, LIGHT_PASS, index as u64);
     let start = if emitters.is_empty() {
         first_seen(surfaces, tracer, eye, &mut stream)
@@ -118,7 +124,7 @@ fn light_walk(index: usize, emitters: &[usize], surfaces: &Surfaces, tracer: &Tr
         Some(surfaces.place(emitters[index % emitters.len()], tracer, &mut stream))
     };
     let mut walk = Walk { places: start.into_iter().collect(), escaped: false };
-    while let Some(last) = walk.places.last().filter(|_| walk.places.len() <= LIGHT_BOUNCES) {
+    while let Some(last) = walk.places.last().filter(|_| walk.places.len() <= bounces) {
         match surfaces.bounce(last, tracer, &mut stream) {
             Some(place) => walk.places.push(place),
             None => {
@@ -153,15 +159,11 @@ fn finds_light(
     surfaces: &Surfaces,
     tracer: &Tracer,
 ) -> bool {
-    if light.is_empty() {
-        return false;
-    }
     (0..walks).any(|walk| {
         let mut stream = Stream::new(walk as u64, SHELL_PASS, shell as u64);
         let mut place = surfaces.place(sides[walk % sides.len()], tracer, &mut stream);
         for _ in 0..SHELL_BOUNCES {
-            let other = &light[(stream.bits() % light.len() as u64) as usize];
-            if place.sees(other, tracer) {
+            if sees_light(&place, light, tracer, &mut stream) {
                 return true;
             }
             match surfaces.bounce(&place, tracer, &mut stream) {
@@ -173,12 +175,19 @@ fn finds_light(
     })
 }
 
-/// Whether any ray from the side meets a surface: the outside of a block on a floor sees nothing below it.
-fn looks_at_something(side: usize, surfaces: &Surfaces, tracer: &Tracer) -> bool {
+/// Whether a place has a free line of sight to a random one of those where light has been.
+fn sees_light(place: &Place, light: &[Place], tracer: &Tracer, stream: &mut Stream) -> bool {
+    let count = light.len() as u64;
+    count > 0 && place.sees(&light[(stream.bits() % count) as usize], tracer)
+}
+
+/// Whether anything can be seen from the side: from the part of a floor that a block hides, nothing can. Of what is small
+/// and far away, such as a lamp high above a bare floor, no random ray may tell, but a ray to where light has been does.
+fn looks_at_something(side: usize, light: &[Place], surfaces: &Surfaces, tracer: &Tracer) -> bool {
     let mut stream = Stream::new(0, LOOK_PASS, side as u64);
     (0..LOOKS).any(|_| {
         let place = surfaces.place(side, tracer, &mut stream);
-        surfaces.bounce(&place, tracer, &mut stream).is_some()
+        surfaces.bounce(&place, tracer, &mut stream).is_some() || sees_light(&place, light, tracer, &mut stream)
     })
 }
 

@@ -87,6 +87,16 @@ fn a_lamp_in_the_plane_of_a_ceiling_is_moved_and_its_light_arrives() {
 }
 
 #[test]
+fn a_lamp_over_the_cut_of_a_ceiling_is_moved() {
+    let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(x, z)| Vec3::new(x, 1.0, z));
+    let obj = Obj::new().object("room", "black").room_open_to(Vec3::Y, Vec3::ZERO, Vec3::ONE);
+    let obj = obj.face([0, 1, 2].map(|i| corners[i])).face([0, 2, 3].map(|i| corners[i]));
+    let world = build_with(obj.object("lamp", "lamp").level_down([0.3, 0.7], 1.0, [0.3, 0.7]).open(), 0.07);
+    assert_eq!(kinds(&world), [FindingKind::EmitterMoved]);
+    assert_lit(world, expected_irradiance(1.0));
+}
+
+#[test]
 fn a_lamp_that_nothing_sees_is_reported() {
     let world = build(black_room().object("lamp", "lamp").level([0.3, 0.7], 1.01, [0.3, 0.7]).open());
     assert_eq!(kinds(&world), [FindingKind::EmitterHidden]);

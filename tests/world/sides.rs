@@ -126,6 +126,26 @@ fn without_an_emitter_what_the_eye_sees_is_meshed() {
 }
 
 #[test]
+fn a_bare_floor_under_a_small_lamp_is_lit() {
+    // One random ray in four thousand that leaves the floor meets the lamp.
+    let obj = Obj::new().object("lamp", "lamp").level_down([-0.05, 0.05], 2.0, [-0.05, 0.05]);
+    let world = build(obj.object("floor", "white").level([-5.0, 5.0], 0.0, [-5.0, 5.0]).open());
+    assert_meshed(&world, "floor", |side| side.normal.y > 0.0);
+}
+
+#[test]
+fn a_room_is_reached_by_the_last_of_very_many_lamps() {
+    let mut obj = Obj::new().object("room", "white").room(Vec3::ZERO, Vec3::ONE).object("lamp", "lamp");
+    for (i, j) in (0..5000).map(|k| (k % 100, k / 100)) {
+        let at = |k: i32| 0.01 * k as f32;
+        obj = obj.level_down([at(i), at(i) + 0.005], 0.9, [at(j), at(j) + 0.005]);
+    }
+    let (low, high) = (Vec3::new(3.0, 0.0, 0.0), Vec3::new(4.0, 1.0, 1.0));
+    obj = obj.level_down([3.4, 3.6], 0.9, [0.4, 0.6]).object("other", "white").room(low, high);
+    assert_meshed(&build(obj.open()), "other", toward(0.5 * (low + high)));
+}
+
+#[test]
 fn nothing_depends_on_the_unit_of_length() {
     let scene = |scale: f32| {
         let obj = Obj::scaled(scale).object("room", "white").room_open_to(Vec3::Z, Vec3::NEG_ONE, Vec3::ONE);
