@@ -55,7 +55,7 @@ fn report(world: &World) -> Value {
         "materials": scene.materials.len(),
         "emitters": emitters(world),
         "extent": { "min": world.bounds.min.to_array(), "max": world.bounds.max.to_array() },
-        "closed": world.is_closed,
+        "closed": world.is_closed(),
         "viewpoint": {
             "eye": view.eye.to_array(),
             "target": view.target.to_array(),
@@ -84,7 +84,7 @@ fn text(world: &World) -> String {
         world.element_size,
         world.bounds.min,
         world.bounds.max,
-        if world.is_closed { "closed" } else { "open: light escapes" },
+        if world.is_closed() { "closed" } else { "open: light escapes" },
     );
     for finding in &scene.findings {
         let severity = if finding.severity == Severity::Warning { "warning" } else { "note" };

@@ -56,7 +56,9 @@ fn text(solved: &Solved) -> String {
     let emitted = total(energy.emitted);
     let row = |name: &str, watts: f64| {
         let share = if emitted > 0.0 { 100.0 * watts / emitted } else { 0.0 };
-        format!("  {name:<10} {watts:>14.6} W {share:>9.4} %\n")
+        let watts =
+            if (1e-3..1e7).contains(&watts) || watts == 0.0 { format!("{watts:.6}") } else { format!("{watts:.6e}") };
+        format!("  {name:<10} {watts:>14} W {share:>9.4} %\n")
     };
     let mut text = format!(
         "{}: {} patches, {} elements\nradiosity: {} shots in {:.3} s, {} rays, {}\n",

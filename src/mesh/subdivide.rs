@@ -2,6 +2,7 @@
 
 use super::grid::{Grid, Shape};
 use super::{Element, Mesh, MeshSettings, Patch, Side, side_index, smooth};
+use crate::cancel::{Cancel, Cancelled};
 use crate::math::polygon::vector_area;
 use crate::scene::{Polygon, Scene};
 use glam::{DVec3, Vec3, Vec3A};
@@ -40,17 +41,20 @@ pub fn estimated_elements(scene: &Scene, is_meshed: &[bool], element_size: f64) 
 }
 
 /// Cuts every side for which `is_meshed`, indexed as [`Mesh::sides`], is true. Lengths are in metres.
-pub fn subdivide(scene: &Scene, is_meshed: &[bool], element_size: f64) -> Mesh {
-    let mut builder = Builder { vertices: Vertices::default(), mesh: Mesh::default() };
+///
+/// # Errors
+/// If cancelled.
+pub fn subdivide(scene: &Scene, is_meshed: &[bool], element_size: f64, cancel: &Cancel) -> Result<Mesh, Cancelled> {
+    let mut builder = Builder { vertices: Vertices::default(), mesh: Mesh::default(), cancel };
     builder.mesh.sides = vec![None; is_meshed.len()];
     for (index, is_front) in sides(scene, is_meshed) {
         let shape = side_shape(scene, index, is_front);
-        builder.add_side(shape, index as u32, is_front, scene.polygons[index].material, element_size);
+        builder.add_side(shape, index as u32, is_front, scene.polygons[index].material, element_size)?;
     }
-    let Builder { mut mesh, vertices } = builder;
+    let Builder { mut mesh, vertices, .. } = builder;
     mesh.vertices = vertices.positions;
     mesh.vertex_areas = smooth::vertex_areas(&mesh.elements, &mesh.vertices);
-    mesh
+    Ok(mesh)
 }
 
 /// (polygon, is front) of every side to be meshed.
@@ -70,18 +74,29 @@ fn side_shape(scene: &Scene, polygon: usize, is_front: bool) -> Shape {
     Shape::new(&corners)
 }
 
-struct Builder {
+struct Builder<'a> {
     vertices: Vertices,
     mesh: Mesh,
+    cancel: &'a Cancel,
 }
 
-impl Builder {
-    fn add_side(&mut self, shape: Shape, polygon: u32, is_front: bool, material: u32, element_size: f64) {
+impl Builder<'_> {
+    fn add_side(
+        &mut self,
+        shape: Shape,
+        polygon: u32,
+        is_front: bool,
+        material: u32,
+        element_size: f64,
+    ) -> Result<(), Cancelled> {
         let grid = Grid::fit(&shape, element_size, MeshSettings::ELEMENTS_PER_PATCH_EDGE);
         let normal = vector_area(shape.corners()).normalize().as_vec3a();
         let patches_start = self.mesh.patches.len() as u32;
         let elements_start = self.mesh.elements.len() as u32;
         for index in 0..shape.cells(grid.patches) {
+            if self.cancel.is_requested() {
+                return Err(Cancelled);
+            }
             let patch_shape = shape.cell(grid.patches, index);
             let first = self.mesh.elements.len() as u32;
             let patch = self.mesh.patches.len() as u32;
@@ -109,6 +124,7 @@ impl Builder {
             shape,
         };
         self.mesh.sides[side_index(polygon, is_front)] = Some(side);
+        Ok(())
     }
 
     fn element(&mut self, shape: &Shape, patch: u32, normal: Vec3A, material: u32) -> Element {

@@ -13,6 +13,8 @@ pub struct Mailbox {
     step: Cancel,
     /// Stops the opening of a scene: only another scene does.
     load: Cancel,
+    /// Stops a new mesh: another scene or other settings do.
+    mesh: Cancel,
 }
 
 #[derive(Default)]
@@ -37,6 +39,9 @@ impl Mailbox {
         if matches!(command, Command::Load(_)) {
             self.load.request();
         }
+        if matches!(command, Command::Load(_) | Command::Configure(_)) {
+            self.mesh.request();
+        }
         merge(&mut queue.commands, command);
         self.step.request();
         self.posted.notify_one();
@@ -46,6 +51,7 @@ impl Mailbox {
     pub fn close(&self) {
         self.lock().is_closed = true;
         self.load.request();
+        self.mesh.request();
         self.step.request();
         self.posted.notify_one();
     }
@@ -67,12 +73,20 @@ impl Mailbox {
         if !queue.commands.iter().any(|command| matches!(command, Command::Load(_))) {
             self.load.clear();
         }
+        if !queue.commands.iter().any(|command| matches!(command, Command::Load(_) | Command::Configure(_))) {
+            self.mesh.clear();
+        }
         command.map_or(Mail::Empty, Mail::Command)
     }
 
     /// The flag for steps.
     pub fn step_cancel(&self) -> &Cancel {
         &self.step
+    }
+
+    /// The flag for new meshes.
+    pub fn mesh_cancel(&self) -> &Cancel {
+        &self.mesh
     }
 
     /// The flag for the opening of scenes.

@@ -103,7 +103,7 @@ impl Solver {
             return self.publish();
         }
         let phase = self.snapshot.phase.clone();
-        let remeshed = world.remeshed(&settings.mesh).map_err(|error| with_causes(&error));
+        let remeshed = world.remeshed(&settings.mesh, self.mailbox.mesh_cancel()).map_err(|error| with_causes(&error));
         if remeshed.is_err() {
             self.snapshot.settings = old;
         }

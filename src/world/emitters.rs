@@ -9,6 +9,7 @@ use crate::mesh::side_index;
 use crate::scene::{Finding, FindingKind, Polygon, Scene, Severity};
 use crate::tracer::{Ray, Tracer};
 use glam::{Vec3, Vec3A};
+use rayon::prelude::*;
 
 /// Rays that look out from one side of an emitter.
 const LOOKS: u64 = 64;
@@ -26,23 +27,23 @@ const LOOK_PASS: u64 = 4;
 /// each for itself.
 pub fn turn(scene: &mut Scene, tracer: &Tracer) -> Vec<Finding> {
     let surfaces = Surfaces::new(scene);
-    let mut findings = Vec::new();
-    for front in emitting_sides(scene) {
-        let (before, behind) =
-            (open_view(scene, &surfaces, tracer, front), open_view(scene, &surfaces, tracer, front + 1));
-        if before < BLIND_SHARE && behind > BLIND_SHARE {
-            let polygon = front / 2;
-            scene.polygons[polygon] = scene.polygons[polygon].turned();
-            findings.push(Finding {
-                severity: Severity::Note,
-                kind: FindingKind::EmitterTurned,
-                subject: subject(scene, polygon),
-                problem: "its front faces a wall or the void, and its back faces the scene".to_owned(),
-                remedy: "turned round, so that it lights the scene".to_owned(),
-            });
+    let shines_away = |front: &usize| {
+        let open_view = |side: usize| open_view(scene, &surfaces, tracer, side);
+        open_view(*front) < BLIND_SHARE && open_view(front + 1) > BLIND_SHARE
+    };
+    let fronts: Vec<usize> = emitting_sides(scene).into_par_iter().filter(shines_away).collect();
+    let mut turn = |front: usize| {
+        let polygon = front / 2;
+        scene.polygons[polygon] = scene.polygons[polygon].turned();
+        Finding {
+            severity: Severity::Note,
+            kind: FindingKind::EmitterTurned,
+            subject: subject(scene, polygon),
+            problem: "its front faces a wall or the void, and its back faces the scene".to_owned(),
+            remedy: "turned round, so that it lights the scene".to_owned(),
         }
-    }
-    findings
+    };
+    fronts.into_iter().map(&mut turn).collect()
 }
 
 /// The share of rays from a side that meet something which is neither right before it nor an emitter's front.

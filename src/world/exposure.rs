@@ -4,6 +4,7 @@
 //! belongs to no surface that anyone sees; if it took part in means, the floor would be dark along the foot of the block
 //! and light would creep under it.
 
+use crate::cancel::{Cancel, Cancelled};
 use crate::mesh::{Element, Mesh};
 use crate::tracer::{Ray, Tracer};
 use glam::{Vec2, Vec3A};
@@ -22,11 +23,16 @@ pub fn is_covered(mesh: &Mesh, tracer: &Tracer, point: Vec3A, normal: Vec3A) -> 
 }
 
 /// The exposed share of every element, in [0, 1].
-pub fn shares(mesh: &Mesh, tracer: &Tracer) -> Vec<f32> {
+///
+/// # Errors
+/// If cancelled.
+pub fn shares(mesh: &Mesh, tracer: &Tracer, cancel: &Cancel) -> Result<Vec<f32>, Cancelled> {
     if mesh.sides.iter().all(Option::is_some) {
-        return vec![1.0; mesh.elements.len()];
+        return Ok(vec![1.0; mesh.elements.len()]);
     }
-    mesh.elements.par_iter().map(|element| share(mesh, tracer, element)).collect()
+    let unless_cancelled =
+        |element| if cancel.is_requested() { Err(Cancelled) } else { Ok(share(mesh, tracer, element)) };
+    mesh.elements.par_iter().map(unless_cancelled).collect()
 }
 
 fn share(mesh: &Mesh, tracer: &Tracer, element: &Element) -> f32 {

@@ -33,8 +33,8 @@ pub struct World {
     pub bounds: Bounds,
     /// The view to begin with: the one that the scene's author measured, or one that looks into the scene.
     pub viewpoint: Viewpoint,
-    /// Whether no light can leave: not one of the rays that explored the scene did.
-    pub is_closed: bool,
+    /// Share of the bounces of light that leave the scene, in [0, 1], of those that explored it.
+    pub escape_share: f64,
     /// Longest edge of an element, m.
     pub element_size: f32,
     /// For each side, as in [`Mesh::sides`], whether light can reach it.
@@ -76,38 +76,43 @@ impl World {
         let surfaces = Surfaces::new(&scene);
         let bounds = Bounds::of(surfaces.corners());
         let start = scene.viewpoint.unwrap_or_else(|| viewpoint::most_open(&bounds, &tracer));
-        let Reach { is_reached, is_closed, rooms } = sides::explore(&scene, &surfaces, &tracer, start.eye, cancel)?;
+        let Reach { is_reached, escape_share, rooms } = sides::explore(&scene, &surfaces, &tracer, start.eye, cancel)?;
         findings.extend(emitters::hidden(&scene, &surfaces, &tracer));
         scene.findings.extend::<Vec<Finding>>(findings);
         let viewpoint =
             scene.viewpoint.unwrap_or_else(|| viewpoint::choose(&bounds, &surfaces, &tracer, &is_reached, &rooms));
-        let (mesh, element_size) = mesh(&scene, &surfaces, &tracer, &is_reached, settings)?;
+        let (mesh, element_size) = mesh(&scene, &surfaces, &tracer, &is_reached, settings, cancel)?;
         Ok(Self {
             scene: Arc::new(scene),
             tracer: Arc::new(tracer),
             mesh,
             bounds,
             viewpoint,
-            is_closed,
+            escape_share,
             element_size,
             is_reached: is_reached.into(),
         })
     }
 
+    /// Whether no light can leave: not one of the rays that explored the scene did.
+    pub fn is_closed(&self) -> bool {
+        self.escape_share == 0.0
+    }
+
     /// The same scene cut differently; costs only the new mesh.
     ///
     /// # Errors
-    /// If the element size is not a positive number or too fine for memory.
-    pub fn remeshed(&self, settings: &MeshSettings) -> Result<Self, WorldError> {
+    /// If cancelled, or if the element size is not a positive number or too fine for memory.
+    pub fn remeshed(&self, settings: &MeshSettings, cancel: &Cancel) -> Result<Self, WorldError> {
         let (mesh, element_size) =
-            mesh(&self.scene, &Surfaces::new(&self.scene), &self.tracer, &self.is_reached, settings)?;
+            mesh(&self.scene, &Surfaces::new(&self.scene), &self.tracer, &self.is_reached, settings, cancel)?;
         Ok(Self {
             scene: self.scene.clone(),
             tracer: self.tracer.clone(),
             mesh,
             bounds: self.bounds,
             viewpoint: self.viewpoint,
-            is_closed: self.is_closed,
+            escape_share: self.escape_share,
             element_size,
             is_reached: self.is_reached.clone(),
         })
@@ -121,6 +126,7 @@ fn mesh(
     tracer: &Tracer,
     is_reached: &[bool],
     settings: &MeshSettings,
+    cancel: &Cancel,
 ) -> Result<(Mesh, f32), WorldError> {
     let size = match settings.element_size {
         Some(size) if size > 0.0 && size.is_finite() => f64::from(size),
@@ -136,8 +142,8 @@ fn mesh(
     if elements > MeshSettings::MAX_ELEMENTS {
         return Err(WorldError::TooFine { size, elements });
     }
-    let mut mesh = subdivide(scene, is_reached, size);
-    let shares = exposure::shares(&mesh, tracer);
+    let mut mesh = subdivide(scene, is_reached, size, cancel)?;
+    let shares = exposure::shares(&mesh, tracer, cancel)?;
     mesh.expose(&shares);
     Ok((mesh, size as f32))
 }

@@ -39,8 +39,8 @@ const LOOK_PASS: u64 = 3;
 pub struct Reach {
     /// For each side, as in [`crate::mesh::Mesh::sides`].
     pub is_reached: Vec<bool>,
-    /// Whether no walk of light left the scene.
-    pub is_closed: bool,
+    /// Share of the steps of light walks that left the scene, in [0, 1].
+    pub escape_share: f64,
     /// Places on surfaces that light reaches, to look for a viewpoint between them.
     pub rooms: Vec<Place>,
 }
@@ -96,7 +96,7 @@ pub fn explore(
     if cancel.is_requested() {
         return Err(Cancelled);
     }
-    Ok(Reach { is_reached, is_closed: !walks.iter().any(|walk| walk.escaped), rooms: light })
+    Ok(Reach { is_reached, escape_share: escape_share(&walks), rooms: light })
 }
 
 /// Fronts of emitters.
@@ -115,6 +115,13 @@ struct Walk {
 }
 
 /// Number `index` of so many walks.
+/// Escapes by all steps: every place but the first was reached by one.
+fn escape_share(walks: &[Walk]) -> f64 {
+    let escapes = walks.iter().filter(|walk| walk.escaped).count();
+    let bounces: usize = walks.iter().map(|walk| walk.places.len().saturating_sub(1)).sum();
+    escapes as f64 / (escapes + bounces).max(1) as f64
+}
+
 fn light_walk(index: usize, walks: usize, emitters: &[usize], surfaces: &Surfaces, tracer: &Tracer, eye: Vec3) -> Walk {
     let bounces = (LIGHT_WALKS * LIGHT_BOUNCES / walks).max(1);
     let mut stream = Stream::new(0, LIGHT_PASS, index as u64);

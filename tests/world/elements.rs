@@ -94,15 +94,16 @@ fn a_remeshed_world_is_the_one_that_would_have_been_built() {
     let fine = MeshSettings { element_size: Some(0.06) };
     for scene in [builtin("cornell-box"), motley()] {
         let built = World::build(scene.clone(), &fine, &Cancel::default()).expect("a world");
-        let remeshed = build(scene).remeshed(&fine).expect("a world");
+        let remeshed = build(scene).remeshed(&fine, &Cancel::default()).expect("a world");
         assert_eq!(remeshed.mesh.sides, built.mesh.sides);
         assert_eq!(remeshed.mesh.patches, built.mesh.patches);
         assert_eq!(remeshed.mesh.elements, built.mesh.elements);
         assert_eq!(remeshed.mesh.vertices, built.mesh.vertices);
         assert_eq!(remeshed.scene.polygons, built.scene.polygons);
         assert_eq!(remeshed.scene.findings, built.scene.findings);
-        assert_eq!((remeshed.viewpoint, remeshed.is_closed), (built.viewpoint, built.is_closed));
-        let refused = remeshed.remeshed(&MeshSettings { element_size: Some(1e-9) }).err().expect("a refusal");
+        assert_eq!((remeshed.viewpoint, remeshed.is_closed()), (built.viewpoint, built.is_closed()));
+        let refused =
+            remeshed.remeshed(&MeshSettings { element_size: Some(1e-9) }, &Cancel::default()).err().expect("a refusal");
         assert!(matches!(refused, WorldError::TooFine { .. }));
     }
 }

@@ -101,7 +101,7 @@ fn a_lamp_that_nothing_sees_is_reported() {
     let world = build(black_room().object("lamp", "lamp").level([0.3, 0.7], 1.01, [0.3, 0.7]).open());
     assert_eq!(kinds(&world), [FindingKind::EmitterHidden]);
     assert_eq!(world.scene.findings[0].severity, Severity::Warning);
-    assert!(!world.is_closed);
+    assert!(!world.is_closed());
     let (_, solution) = solve(world);
     assert!((solution.energy.escaped - solution.energy.emitted).length() < 1e-9);
 }

@@ -24,7 +24,7 @@ fn the_cornell_box_is_meshed_inside_and_its_blocks_outside() {
     {
         assert_meshed(&world, block, |side| !toward(inside)(side));
     }
-    assert!(!world.is_closed);
+    assert!(!world.is_closed());
 }
 
 #[test]
@@ -36,7 +36,7 @@ fn a_furnace_is_meshed_inside_whichever_way_it_is_wound() {
     ] {
         let world = build(obj.open());
         assert_meshed(&world, "cube", toward(middle));
-        assert!(world.is_closed);
+        assert!(world.is_closed());
     }
 }
 
@@ -92,7 +92,7 @@ fn a_room_behind_a_long_bent_corridor_is_reached() {
             assert!(world.mesh.side(index, true).is_some() && world.mesh.side(index, false).is_none());
         }
     }
-    assert!(world.is_closed);
+    assert!(world.is_closed());
 }
 
 #[test]
@@ -159,7 +159,7 @@ fn nothing_depends_on_the_unit_of_length() {
         let world = build(scene(scale));
         let meshed: Vec<bool> = world.mesh.sides.iter().map(Option::is_some).collect();
         let exposed: Vec<f32> = world.mesh.elements.iter().map(|element| element.exposed).collect();
-        (meshed, world.mesh.patches.len(), exposed, kinds(&world), world.is_closed)
+        (meshed, world.mesh.patches.len(), exposed, kinds(&world), world.is_closed())
     };
     let expected = facts(1.0);
     assert!(expected.3.contains(&FindingKind::EmitterMoved) && expected.3.contains(&FindingKind::EmitterTurned));

@@ -63,6 +63,7 @@ impl Shooter {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cancel::Cancel;
     use crate::math::polygon::parallel_rectangles;
     use crate::mesh::subdivide;
     use crate::scene::{Polygon, Scene, Source};
@@ -83,7 +84,7 @@ mod tests {
             viewpoint: None,
             findings: Vec::new(),
         };
-        subdivide(&scene, &[true, false, true, false], size)
+        subdivide(&scene, &[true, false, true, false], size, &Cancel::default()).expect("nothing cancels it")
     }
 
     /// Σ A_e F_e over the second square for a first square that is one patch.

@@ -152,13 +152,15 @@ impl Radiosity {
     }
 }
 
-/// The irradiance of a closed room with this much light and the mean reflectance of the scene: Φ / (S (1 − ρ̄)), W/m²
-/// summed over RGB (the ambient term of Cohen, Chen, Wallace, Greenberg 1988 before the first shot).
+/// The irradiance of a room with this much light, the mean reflectance ρ̄ of the scene and its share ε of light that
+/// escapes on the way to a surface: Φ (1 − ε) / (S (1 − ρ̄ (1 − ε))), W/m² summed over RGB. It is the ambient term of Cohen,
+/// Chen, Wallace, Greenberg (1988) before the first shot, for rooms that may be open.
 fn expected_irradiance(world: &World, reflectance: &[Rgb64], emitted: Rgb64) -> f64 {
     let area = world.mesh.area();
     let reflecting: Rgb64 = world.mesh.patches.iter().zip(reflectance).map(|(patch, rho)| *rho * patch.area).sum();
     let mean = reflecting / area;
-    total(emitted / (area * (Rgb64::ONE - mean)))
+    let arriving = 1.0 - world.escape_share;
+    total(emitted * arriving / (area * (Rgb64::ONE - mean * arriving)))
 }
 
 impl Method for Radiosity {
