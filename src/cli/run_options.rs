@@ -8,7 +8,7 @@ use crate::methods::{Settings, Step};
 use crate::scene::Scene;
 use crate::solution::Solution;
 use crate::worker::Run;
-use crate::world::World;
+use crate::world::{World, with_ceiling_light};
 use clap::Args;
 use std::sync::Arc;
 use std::time::Duration;
@@ -65,7 +65,7 @@ impl RunOptions {
     pub fn open(&self) -> Result<Arc<World>, CliError> {
         let mut scene = Scene::open(&self.scene)?;
         if self.ceiling_light && !scene.has_emitter() {
-            scene = scene.with_ceiling_light();
+            scene = with_ceiling_light(&scene);
         }
         Ok(Arc::new(World::build(scene, &self.settings().mesh, &Cancel::default())?))
     }

@@ -3,6 +3,7 @@
 use super::doctor::{Finding, FindingKind};
 use super::material::Material;
 use super::{Polygon, Scene};
+use crate::math::bounds::Bounds;
 use crate::math::rgb::Rgb;
 use glam::Vec3;
 
@@ -27,17 +28,22 @@ impl Scene {
     /// This scene with a rectangle that shines down from just under the top of the scene's bounding box, in its middle.
     /// A scene that has an emitter is returned as it is.
     pub fn with_ceiling_light(&self) -> Self {
+        self.with_ceiling_light_under(self.bounds().max.y)
+    }
+
+    /// The same just under another height, m.
+    pub fn with_ceiling_light_under(&self, top: f32) -> Self {
         let mut scene = self.clone();
         if self.has_emitter() {
             return scene;
         }
-        let (low, high) = self.bounds();
-        let (center, extent) = (0.5 * (low + high), high - low);
+        let bounds = self.bounds();
+        let (center, extent) = (bounds.center(), bounds.extent());
         let largest = extent.max_element();
         // A scene that is flat seen from above still gets a light that has an area.
         let half = 0.5 * SHARE * extent.max(Vec3::splat(0.1 * largest));
         // A scene that is flat seen from the side, such as a bare floor, gets it overhead.
-        let height = if extent.y > 0.1 * largest { high.y - GAP * largest } else { high.y + 0.5 * largest };
+        let height = if extent.y > 0.1 * largest { top - GAP * largest } else { top + 0.5 * largest };
         let first = scene.positions.len() as u32;
         let corner = |x: f32, z: f32| Vec3::new(center.x + x * half.x, height, center.z + z * half.z);
         scene.positions.extend([corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)]);
@@ -59,10 +65,9 @@ impl Scene {
         scene
     }
 
-    /// Lowest and highest corner of the box around all polygons.
-    fn bounds(&self) -> (Vec3, Vec3) {
+    /// The box round all polygons.
+    fn bounds(&self) -> Bounds {
         let corners = self.polygons.iter().flat_map(|polygon| polygon.corners());
-        let positions = corners.map(|&corner| self.positions[corner as usize]);
-        positions.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)))
+        Bounds::of(corners.map(|&corner| self.positions[corner as usize]))
     }
 }

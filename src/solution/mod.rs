@@ -67,7 +67,7 @@ pub struct Closure {
 /// Work done so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
 pub struct Counters {
-    /// Rays of every kind.
+    /// Rays that carry light: shadow and escape rays.
     pub rays: u64,
     /// Visibility rays between a receiver and a shooter.
     pub shadow_rays: u64,

@@ -6,7 +6,7 @@ use crate::errors::with_causes;
 use crate::mesh::MeshSettings;
 use crate::methods::{Settings, Step};
 use crate::scene::Scene;
-use crate::world::{World, WorldError};
+use crate::world::{World, WorldError, with_ceiling_light};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -14,6 +14,22 @@ use std::time::{Duration, Instant};
 
 /// While running, snapshots are at least this far apart: 30 a second are as many as anyone sees.
 const PUBLISH_INTERVAL: Duration = Duration::from_millis(33);
+
+/// Why there is no new world.
+enum NoWorld {
+    /// A newer command made it pointless, which is no trouble.
+    Superseded,
+    Failed(String),
+}
+
+impl From<WorldError> for NoWorld {
+    fn from(error: WorldError) -> Self {
+        match error {
+            WorldError::Cancelled => Self::Superseded,
+            error => Self::Failed(with_causes(&error)),
+        }
+    }
+}
 
 /// The state of the thread.
 pub struct Solver {
@@ -70,7 +86,8 @@ impl Solver {
             // A size in metres that suits one scene may be far too fine for another.
             self.snapshot.settings.mesh = MeshSettings::default();
         }
-        let built = Scene::open(name).map_err(|error| with_causes(&error)).and_then(|scene| self.build(scene));
+        let built = Scene::open(name).map_err(|error| NoWorld::Failed(with_causes(&error)));
+        let built = built.and_then(|scene| self.build(scene));
         if built.is_err() {
             self.snapshot.settings.mesh = old_mesh;
         }
@@ -80,13 +97,12 @@ impl Solver {
     fn add_ceiling_light(&mut self) {
         let Some(world) = self.snapshot.world.clone().filter(|world| !world.scene.has_emitter()) else { return };
         let before = self.snapshot.phase.clone();
-        let built = self.build(world.scene.with_ceiling_light());
+        let built = self.build(with_ceiling_light(&world.scene));
         self.take_over(built, before);
     }
 
-    fn build(&self, scene: Scene) -> Result<World, String> {
-        World::build(scene, &self.snapshot.settings.mesh, self.mailbox.load_cancel())
-            .map_err(|error| with_causes(&error))
+    fn build(&self, scene: Scene) -> Result<World, NoWorld> {
+        Ok(World::build(scene, &self.snapshot.settings.mesh, self.mailbox.load_cancel())?)
     }
 
     fn configure(&mut self, settings: Settings) {
@@ -103,7 +119,7 @@ impl Solver {
             return self.publish();
         }
         let phase = self.snapshot.phase.clone();
-        let remeshed = world.remeshed(&settings.mesh, self.mailbox.mesh_cancel()).map_err(|error| with_causes(&error));
+        let remeshed = world.remeshed(&settings.mesh, self.mailbox.mesh_cancel()).map_err(NoWorld::from);
         if remeshed.is_err() {
             self.snapshot.settings = old;
         }
@@ -111,17 +127,17 @@ impl Solver {
     }
 
     /// Shows a new world before its first step, or says why there is none and leaves everything as it was.
-    fn take_over(&mut self, built: Result<World, String>, before: Phase) {
+    fn take_over(&mut self, built: Result<World, NoWorld>, before: Phase) {
         match built {
             Ok(world) => {
                 self.snapshot.error = None;
                 self.snapshot.phase = if before == Phase::Running { Phase::Running } else { Phase::Paused };
                 self.start(Arc::new(world));
             }
-            Err(error) => {
-                // A load that another one interrupts is no error.
-                let is_superseded = error == WorldError::Cancelled.to_string();
-                self.snapshot.error = if is_superseded { self.snapshot.error.take() } else { Some(error) };
+            Err(no_world) => {
+                if let NoWorld::Failed(reason) = no_world {
+                    self.snapshot.error = Some(reason);
+                }
                 self.snapshot.phase = before;
             }
         }

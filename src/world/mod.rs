@@ -1,11 +1,13 @@
 //! The world: a scene made ready for light. It is built once and never changes.
 
+mod ceiling;
 mod emitters;
 mod exposure;
 mod sides;
 mod surface;
 mod viewpoint;
 
+pub use ceiling::with_ceiling_light;
 pub use exposure::is_covered;
 
 use crate::cancel::{Cancel, Cancelled};

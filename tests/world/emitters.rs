@@ -12,6 +12,7 @@ use lightwell::scene::{FindingKind, Severity};
 use lightwell::solution::Solution;
 use lightwell::tracer::Ray;
 use lightwell::world::World;
+use lightwell::world::with_ceiling_light;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -120,4 +121,18 @@ fn a_spherical_lamp_that_is_inside_out_is_turned() {
         let is_outside = (side.center - Vec3::splat(0.5)).dot(side.normal) > 0.0;
         assert_eq!(side.is_meshed, is_outside, "at {} facing {}", side.center, side.normal);
     }
+}
+
+#[test]
+fn the_ceiling_light_hangs_under_a_roof_that_is_thick() {
+    // A closed hall under a slab: the top of the scene is the roof, and just under it is the inside of the slab.
+    let (low, high) = (Vec3::ZERO, Vec3::new(10.0, 3.0, 10.0));
+    let slab = [Vec3::new(0.0, 3.0, 0.0), Vec3::new(10.0, 3.2, 10.0)];
+    let scene =
+        Obj::new().object("hall", "white").room(low, high).object("roof", "white").block(slab[0], slab[1]).open();
+    let lit = with_ceiling_light(&scene);
+    let light = lit.polygons.last().expect("the light");
+    let height = lit.positions[light.corners()[0] as usize].y;
+    assert!(height < 3.0 && height > 2.7, "it hangs at {height} m");
+    assert_eq!(with_ceiling_light(&lit).polygons.len(), lit.polygons.len(), "one light is enough");
 }
