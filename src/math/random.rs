@@ -1,6 +1,6 @@
 //! Random numbers that depend on (seed, pass, index) alone, so that a result is the same on any number of threads.
 
-use glam::Vec2;
+use glam::{Vec2, Vec4};
 
 /// SplitMix64 (Steele, Lea, Flood 2014): a counter whose successive states are scrambled to 64 random bits.
 #[derive(Clone, Debug)]
@@ -36,6 +36,12 @@ pub fn hash(seed: u64, pass: u64, index: u64) -> u64 {
     let mut state = scramble(seed.wrapping_add(GOLDEN));
     state = scramble(state ^ pass.wrapping_mul(GOLDEN));
     scramble(state ^ index.wrapping_mul(GOLDEN))
+}
+
+/// A point of [0, 1)⁴ made of 16 bits each: enough to shift a pattern of points.
+pub fn unit_vec4(bits: u64) -> Vec4 {
+    let part = |i: u64| (bits >> (16 * i) & 0xffff) as f32 * (1.0 / 65536.0);
+    Vec4::new(part(0), part(1), part(2), part(3))
 }
 
 /// Point `index` of an Owen-scrambled Sobol sequence (Burley 2020) in dimensions `2 pair` and `2 pair + 1`, in [0, 1)².

@@ -8,7 +8,7 @@ mod subdivide;
 
 pub use grid::{Grid, Shape};
 pub use locate::Location;
-pub use region::Region;
+pub use region::{Region, Sampler};
 pub use subdivide::{element_size_for, estimated_elements, subdivide};
 
 use glam::{Vec3, Vec3A};

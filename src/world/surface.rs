@@ -70,8 +70,8 @@ impl Surfaces {
     /// A random place on a side, off the surface by the tracer's offset. Every part of the side can come up.
     pub fn place(&self, side: usize, tracer: &Tracer, stream: &mut Stream) -> Place {
         let normal = self.normal(side);
-        let point = self.regions[side / 2].point(stream.uniform2());
-        Place { side, point: tracer.lift(point, normal), normal }
+        let points = self.regions[side / 2].sampler(tracer.offset() * normal);
+        Place { side, point: points.point(stream.uniform2()), normal }
     }
 
     /// Where a cosine-distributed ray from a place arrives; `None` if it leaves the scene.

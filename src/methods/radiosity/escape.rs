@@ -16,9 +16,9 @@ const PASS: u64 = 0x6573_6361_7065;
 /// meet a side which light cannot reach start where something stands on the patch and covers it: they do not count.
 pub fn escaping_share(world: &World, patch: &Patch, seed: u64, step: u64) -> f64 {
     let seed = hash(seed, step, PASS) as u32;
-    let region = patch.region();
+    let origins = patch.region().sampler(world.tracer.offset() * patch.normal);
     let count = |i: u32| {
-        let origin = world.tracer.lift(region.point(sobol2(i, 0, seed)), patch.normal);
+        let origin = origins.point(sobol2(i, 0, seed));
         let direction = frame(patch.normal) * cosine_hemisphere(sobol2(i, 1, seed));
         match world.tracer.closest(&Ray { origin, direction }) {
             None => [1, 1],

@@ -3,7 +3,7 @@
 use super::form_factor::Shooter;
 use super::visibility::Sightline;
 use crate::cancel::Cancel;
-use crate::math::random::Stream;
+use crate::math::random::hash;
 use crate::mesh::Mesh;
 use crate::world::World;
 use std::ops::{AddAssign, Range};
@@ -114,8 +114,8 @@ fn gather_batch(batch: &Batch, shot: &Shot, form_factors: &mut [f64]) -> Work {
             *out = shot.shooter.form_factor(mesh, element, normal);
             work.form_factors += 1;
             if *out > 0.0 {
-                let mut stream = Stream::new(shot.seed, shot.step, index as u64);
-                let (visible, rays) = shot.sightline.visible_share(element, patch.normal, *out, &mut stream);
+                let shift = hash(shot.seed, shot.step, index as u64);
+                let (visible, rays) = shot.sightline.visible_share(element, patch.normal, *out, shift);
                 *out *= visible;
                 work.rays += u64::from(rays);
             }

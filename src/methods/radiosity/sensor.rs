@@ -47,10 +47,10 @@ fn mean_radiosity(world: &World, solution: &Solution, patch: &Patch) -> Rgb64 {
 
 /// Share of the patch's points above the horizon that the sensor sees.
 fn visible_share(world: &World, patch: &Patch, point: Vec3A, normal: Vec3A, seed: u32) -> f64 {
-    let region = patch.region();
+    let targets = patch.region().sampler(world.tracer.offset() * patch.normal);
     let (mut above, mut visible) = (0, 0);
     for i in 0..RAYS {
-        let to = world.tracer.lift(region.point(sobol2(i, 0, seed)), patch.normal);
+        let to = targets.point(sobol2(i, 0, seed));
         if (to - point).dot(normal) > 0.0 {
             above += 1;
             visible += u32::from(world.tracer.is_visible(point, to));

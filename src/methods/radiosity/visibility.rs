@@ -1,7 +1,7 @@
 //! How much of a shooting patch a receiving element sees, by shadow rays.
 
-use crate::math::random::Stream;
-use crate::mesh::{Element, Patch, Region};
+use crate::math::random::unit_vec4;
+use crate::mesh::{Element, Patch, Sampler};
 use crate::methods::Settings;
 use crate::world::{World, is_covered};
 use glam::{Vec3A, Vec4, Vec4Swizzles};
@@ -32,7 +32,7 @@ impl Rays {
 pub struct Sightline<'a> {
     world: &'a World,
     /// Lifted off the shooter.
-    shooter: Region,
+    shooter: Sampler,
     shooter_normal: Vec3A,
     rays: Rays,
 }
@@ -40,20 +40,19 @@ pub struct Sightline<'a> {
 impl<'a> Sightline<'a> {
     pub fn new(world: &'a World, shooter: &Patch, rays: Rays) -> Self {
         let lift = world.tracer.offset() * shooter.normal;
-        Self { world, shooter: shooter.region().shifted(lift), shooter_normal: shooter.normal, rays }
+        Self { world, shooter: shooter.region().sampler(lift), shooter_normal: shooter.normal, rays }
     }
 
     /// Share of point pairs of element and shooter that see each other, among those that face each other, and the
-    /// number of rays traced. `form_factor` is what it would be with nothing between them. `stream` shifts the pattern
-    /// of points, so that neighbours do not err alike.
-    pub fn visible_share(&self, element: &Element, normal: Vec3A, form_factor: f64, stream: &mut Stream) -> (f64, u32) {
+    /// number of rays traced. `form_factor` is what it would be with nothing between them. `shift` moves the pattern of
+    /// points, so that neighbours do not err alike.
+    pub fn visible_share(&self, element: &Element, normal: Vec3A, form_factor: f64, shift: u64) -> (f64, u32) {
         let World { mesh, tracer, .. } = self.world;
-        let receiver = mesh.region(element).shifted(tracer.offset() * normal);
+        let receiver = mesh.region(element).sampler(tracer.offset() * normal);
         let rays = self.rays.to(form_factor);
         let is_partly_covered = element.exposed < 1.0;
         let tries = if is_partly_covered { TRIES * rays } else { rays };
-        let (low, high) = (stream.uniform2(), stream.uniform2());
-        let mut at = Vec4::new(low.x, low.y, high.x, high.y);
+        let mut at = unit_vec4(shift);
         let (mut pairs, mut facing, mut visible) = (0, 0, 0);
         for _ in 0..tries {
             at = (at + STEP).fract();
