@@ -114,7 +114,6 @@ struct Walk {
     escaped: bool,
 }
 
-/// Number `index` of so many walks.
 /// Escapes by all steps: every place but the first was reached by one.
 fn escape_share(walks: &[Walk]) -> f64 {
     let escapes = walks.iter().filter(|walk| walk.escaped).count();
@@ -122,6 +121,7 @@ fn escape_share(walks: &[Walk]) -> f64 {
     escapes as f64 / (escapes + bounces).max(1) as f64
 }
 
+/// Number `index` of so many walks, from an emitter or else from what the eye sees.
 fn light_walk(index: usize, walks: usize, emitters: &[usize], surfaces: &Surfaces, tracer: &Tracer, eye: Vec3) -> Walk {
     let bounces = (LIGHT_WALKS * LIGHT_BOUNCES / walks).max(1);
     let mut stream = Stream::new(0, LIGHT_PASS, index as u64);
