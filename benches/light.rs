@@ -28,7 +28,7 @@ const ELEMENT_SIZE: f32 = 0.0107;
 
 fn cornell_box() -> Arc<World> {
     let scene = Scene::open("cornell-box").expect("a built-in scene");
-    let settings = MeshSettings { element_size: Some(ELEMENT_SIZE) };
+    let settings = MeshSettings { element_size: Some(ELEMENT_SIZE), ..MeshSettings::default() };
     Arc::new(World::build(scene, &settings, &Cancel::default()).expect("a world"))
 }
 

@@ -36,10 +36,13 @@ fn window_work(criterion: &mut Criterion) {
         Ok(gpu) => gpu,
         Err(error) => return println!("viewport: skipped: {error}"),
     };
-    let settings = Settings { mesh: MeshSettings { element_size: Some(ELEMENT_SIZE) }, ..Settings::default() };
+    let settings = Settings {
+        mesh: MeshSettings { element_size: Some(ELEMENT_SIZE), ..MeshSettings::default() },
+        ..Settings::default()
+    };
     let scene = Scene::open("cornell-box").expect("a built-in scene");
     let world = Arc::new(World::build(scene, &settings.mesh, &Cancel::default()).expect("a world"));
-    let mut run = Run::start(world.clone(), &settings);
+    let mut run = Run::start(world.clone(), &settings).expect("enough memory");
     for _ in 0..4 {
         run.step(&Cancel::default());
     }

@@ -8,6 +8,7 @@
 pub mod app;
 pub mod camera;
 pub mod cancel;
+pub mod choice;
 pub mod cli;
 pub mod errors;
 pub mod math;

@@ -12,11 +12,11 @@ use std::path::{Path, PathBuf};
 
 /// The top modules of each layer; `lib` and `main` are the two crate roots.
 const LAYERS: [&[&str]; 8] = [
-    &["math", "cancel", "errors"],
+    &["math", "cancel", "choice", "errors"],
     &["scene", "mesh", "tracer", "world"],
     &["effects", "solution"],
     &["methods"],
-    &["accuracy"],
+    &["accuracy", "hard_cases"],
     &["worker"],
     &["camera", "viewport"],
     &["cli", "app", "main", "lib"],
@@ -42,6 +42,7 @@ const CRATES: &[(&str, &[&str])] = &[
     ("obvhs", &["tracer"]),
     ("rayon", &["mesh", "tracer", "world", "methods", "accuracy", "worker"]),
     ("thread_priority", &["worker"]),
+    ("sysinfo", &["worker"]),
     ("kiddo", &["methods"]),
     // The picture.
     ("wgpu", &["viewport", "app"]),

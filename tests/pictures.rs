@@ -32,7 +32,7 @@ fn compare(gpu: &Gpu, scene: &str, view: View, wireframe: bool, shots: u64) {
     let settings = Settings { mesh: MeshSettings::default(), ..Settings::default() };
     let scene_read = Scene::open(scene).expect("a built-in scene");
     let world = Arc::new(World::build(scene_read, &settings.mesh, &Cancel::default()).expect("a world"));
-    let mut run = Run::start(world.clone(), &settings);
+    let mut run = Run::start(world.clone(), &settings).expect("enough memory");
     for _ in 0..shots {
         run.step(&Cancel::default());
     }

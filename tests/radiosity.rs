@@ -11,7 +11,10 @@ use lightwell::world::World;
 use std::sync::Arc;
 
 fn world_of(scene: Scene, element_size: Option<f32>) -> Arc<World> {
-    Arc::new(World::build(scene, &MeshSettings { element_size }, &Cancel::default()).expect("a world"))
+    Arc::new(
+        World::build(scene, &MeshSettings { element_size, ..MeshSettings::default() }, &Cancel::default())
+            .expect("a world"),
+    )
 }
 
 fn world(name: &str, element_size: Option<f32>) -> Arc<World> {

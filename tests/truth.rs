@@ -23,9 +23,12 @@ const PATHS: u64 = 8192;
 
 fn solve(element_size: f32) -> (Arc<World>, Solution) {
     let scene = Scene::open("cornell-box").expect("a built-in scene");
-    let settings = Settings { mesh: MeshSettings { element_size: Some(element_size) }, ..Settings::default() };
+    let settings = Settings {
+        mesh: MeshSettings { element_size: Some(element_size), ..MeshSettings::default() },
+        ..Settings::default()
+    };
     let world = Arc::new(World::build(scene, &settings.mesh, &Cancel::default()).expect("a world"));
-    let mut run = Run::start(world.clone(), &settings);
+    let mut run = Run::start(world.clone(), &settings).expect("enough memory");
     while run.step(&Cancel::default()) == Step::Advanced {}
     let solution = run.solution();
     (world, solution)

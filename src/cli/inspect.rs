@@ -22,7 +22,7 @@ pub struct Options {
 
 pub fn run(options: &Options) -> Result<(), CliError> {
     let scene = Scene::open(&options.scene)?;
-    let settings = MeshSettings { element_size: options.element.map(|size| size as f32) };
+    let settings = MeshSettings { element_size: options.element.map(|size| size as f32), ..MeshSettings::default() };
     let world = World::build(scene, &settings, &Cancel::default())?;
     let mut out = std::io::stdout().lock();
     if options.json {

@@ -11,6 +11,7 @@ mod values;
 
 use crate::scene::{Finding, SceneError, Severity};
 use crate::viewport::{AdapterChoice, GpuError};
+use crate::worker::Refused;
 use crate::world::WorldError;
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
@@ -71,6 +72,8 @@ pub enum CliError {
     Scene(#[from] SceneError),
     #[error(transparent)]
     World(#[from] WorldError),
+    #[error(transparent)]
+    Refused(#[from] Refused),
     #[error(transparent)]
     Gpu(#[from] GpuError),
     #[error("cannot read points from {path}")]

@@ -53,11 +53,12 @@ impl RunOptions {
     fn settings(&self) -> Settings {
         let limit = self.converge.map_or(Settings::default().unshot_limit, |percent| percent / 100.0);
         Settings {
-            mesh: MeshSettings { element_size: self.element.map(|size| size as f32) },
+            mesh: MeshSettings { element_size: self.element.map(|size| size as f32), ..MeshSettings::default() },
             // A run that ends by a count or by the clock does not end before.
             unshot_limit: if self.steps.is_some() || self.time.is_some() { 0.0 } else { limit },
             shadow_rays: self.shadow_rays,
             seed: self.seed,
+            ..Settings::default()
         }
     }
 
@@ -75,7 +76,7 @@ impl RunOptions {
         let world = self.open()?;
         warn_of(&world.scene.findings);
         let settings = self.settings();
-        let mut run = Run::start(world.clone(), &settings);
+        let mut run = Run::start(world.clone(), &settings)?;
         // More seconds than a duration holds are no limit.
         let time = self.time.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok()).unwrap_or(Duration::MAX);
         let mut steps_left = self.steps.unwrap_or(u64::MAX);

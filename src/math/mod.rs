@@ -4,5 +4,6 @@ pub mod bounds;
 pub mod polygon;
 pub mod random;
 pub mod rgb;
+pub mod sparse;
 pub mod stats;
 pub mod warp;

@@ -128,10 +128,20 @@ pub fn side_index(polygon: u32, is_front: bool) -> usize {
 }
 
 /// How finely surfaces are cut.
-#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct MeshSettings {
     /// Longest edge of an element (of a triangle, the second longest), m. `None`: the size at which the mesh has about [`MeshSettings::DEFAULT_ELEMENTS`].
     pub element_size: Option<f32>,
+    /// Elements along the edge of a patch, at most. Receivers need more detail than shooters: a shadow's edge is seen
+    /// where it falls, while the light that a patch sends on is blurred by distance (Cohen, Greenberg, Immel, Brock 1986).
+    /// With 1, every element is a patch.
+    pub elements_per_patch_edge: u32,
+}
+
+impl Default for MeshSettings {
+    fn default() -> Self {
+        Self { element_size: None, elements_per_patch_edge: 4 }
+    }
 }
 
 impl MeshSettings {
@@ -139,7 +149,5 @@ impl MeshSettings {
     pub const DEFAULT_ELEMENTS: f64 = 8000.0;
     /// More elements than this are refused: their light alone would take gigabytes.
     pub const MAX_ELEMENTS: f64 = 8e6;
-    /// Elements along the edge of a patch. Receivers need more detail than shooters: a shadow's edge is seen where it
-    /// falls, while the light that a patch sends on is blurred by distance (Cohen, Greenberg, Immel, Brock 1986).
-    pub const ELEMENTS_PER_PATCH_EDGE: u32 = 4;
+    pub const MAX_ELEMENTS_PER_PATCH_EDGE: u32 = 16;
 }

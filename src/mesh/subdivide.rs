@@ -1,7 +1,7 @@
 //! Cuts the sides of a scene's polygons into patches and these into elements.
 
 use super::grid::{Grid, Shape};
-use super::{Element, Mesh, MeshSettings, Patch, Side, side_index, smooth};
+use super::{Element, Mesh, Patch, Side, side_index, smooth};
 use crate::cancel::{Cancel, Cancelled};
 use crate::math::polygon::vector_area;
 use crate::scene::{Polygon, Scene};
@@ -13,11 +13,11 @@ const CREASE_COSINE: f32 = 0.866;
 
 /// The element size, m, at which the mesh has about as many elements as wanted, or the nearest to it: there is at least
 /// one for each side.
-pub fn element_size_for(scene: &Scene, is_meshed: &[bool], area: f64, wanted: f64) -> f64 {
+pub fn element_size_for(scene: &Scene, is_meshed: &[bool], per_patch_edge: u32, area: f64, wanted: f64) -> f64 {
     let mut size = (area / wanted).sqrt();
     // Triangles and the rounding up to whole cells make more elements than the area alone says; a few corrections settle.
     for _ in 0..4 {
-        let ratio = estimated_elements(scene, is_meshed, size) / wanted;
+        let ratio = estimated_elements(scene, is_meshed, per_patch_edge, size) / wanted;
         if ratio > 1.05 {
             size *= ratio.sqrt();
         }
@@ -25,12 +25,13 @@ pub fn element_size_for(scene: &Scene, is_meshed: &[bool], area: f64, wanted: f6
     size
 }
 
-/// How many elements the mesh would have; costs next to nothing.
-pub fn estimated_elements(scene: &Scene, is_meshed: &[bool], element_size: f64) -> f64 {
+/// How many elements the mesh would have, with at most `per_patch_edge` along the edge of a patch; costs next to
+/// nothing.
+pub fn estimated_elements(scene: &Scene, is_meshed: &[bool], per_patch_edge: u32, element_size: f64) -> f64 {
     sides(scene, is_meshed)
         .map(|(polygon, is_front)| {
             let shape = side_shape(scene, polygon, is_front);
-            let grid = Grid::fit(&shape, element_size, MeshSettings::ELEMENTS_PER_PATCH_EDGE);
+            let grid = Grid::fit(&shape, element_size, per_patch_edge);
             let cells = |count: [u32; 2]| match shape {
                 Shape::Triangle(_) => f64::from(count[0]).powi(2),
                 Shape::Quad(_) => f64::from(count[0]) * f64::from(count[1]),
@@ -44,12 +45,19 @@ pub fn estimated_elements(scene: &Scene, is_meshed: &[bool], element_size: f64) 
 ///
 /// # Errors
 /// If cancelled.
-pub fn subdivide(scene: &Scene, is_meshed: &[bool], element_size: f64, cancel: &Cancel) -> Result<Mesh, Cancelled> {
-    let mut builder = Builder { vertices: Vertices::default(), mesh: Mesh::default(), cancel };
+pub fn subdivide(
+    scene: &Scene,
+    is_meshed: &[bool],
+    per_patch_edge: u32,
+    element_size: f64,
+    cancel: &Cancel,
+) -> Result<Mesh, Cancelled> {
+    let mut builder =
+        Builder { vertices: Vertices::default(), mesh: Mesh::default(), per_patch_edge, element_size, cancel };
     builder.mesh.sides = vec![None; is_meshed.len()];
     for (index, is_front) in sides(scene, is_meshed) {
         let shape = side_shape(scene, index, is_front);
-        builder.add_side(shape, index as u32, is_front, scene.polygons[index].material, element_size)?;
+        builder.add_side(shape, index as u32, is_front, scene.polygons[index].material)?;
     }
     let Builder { mut mesh, vertices, .. } = builder;
     mesh.vertices = vertices.positions;
@@ -77,19 +85,16 @@ fn side_shape(scene: &Scene, polygon: usize, is_front: bool) -> Shape {
 struct Builder<'a> {
     vertices: Vertices,
     mesh: Mesh,
+    /// Elements along the edge of a patch, at most.
+    per_patch_edge: u32,
+    /// Longest edge of an element, m.
+    element_size: f64,
     cancel: &'a Cancel,
 }
 
 impl Builder<'_> {
-    fn add_side(
-        &mut self,
-        shape: Shape,
-        polygon: u32,
-        is_front: bool,
-        material: u32,
-        element_size: f64,
-    ) -> Result<(), Cancelled> {
-        let grid = Grid::fit(&shape, element_size, MeshSettings::ELEMENTS_PER_PATCH_EDGE);
+    fn add_side(&mut self, shape: Shape, polygon: u32, is_front: bool, material: u32) -> Result<(), Cancelled> {
+        let grid = Grid::fit(&shape, self.element_size, self.per_patch_edge);
         let normal = vector_area(shape.corners()).normalize().as_vec3a();
         let patches_start = self.mesh.patches.len() as u32;
         let elements_start = self.mesh.elements.len() as u32;

@@ -1,16 +1,19 @@
 //! What a method hands out: light per element, its ledger of energy, and what it cost.
 
+mod exchange;
 mod probe;
 
+pub use exchange::{FormFactorMatrix, ItemBuffer, Picked, Zero};
 pub use probe::SurfaceProbe;
 
 use crate::math::rgb::{Rgb, Rgb64, total};
+use std::sync::Arc;
 use std::time::Duration;
 
 /// A finished copy of what a method knows at one moment.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Solution {
-    /// Steps done so far; for progressive radiosity, shots.
+    /// Steps done so far: shots or sweeps.
     pub steps: u64,
     /// Time spent in steps, filled in by whoever runs the method.
     pub elapsed: Duration,
@@ -19,9 +22,33 @@ pub struct Solution {
     pub energy: Energy,
     pub closure: Closure,
     pub counters: Counters,
+    /// Mean irradiance of all surfaces, W/m² summed over RGB.
+    pub mean_irradiance: f64,
     /// The patch that shot last.
     pub shooter: Option<u32>,
     pub light: ElementLight,
+    /// The irradiance that unshot light will bring on average, with all its reflections to come, W/m²: the ambient term
+    /// of Cohen, Chen, Wallace, Greenberg (1988). It is for display; no light is computed from it.
+    pub ambient: Rgb,
+    /// How much of the matrix is there, in [0, 1], while it is being built.
+    pub preparation: Option<f32>,
+    /// All form factors, where the solver keeps them and has them all.
+    pub matrix: Option<FormFactorMatrix>,
+    /// Radiosity of each element after 0, 1, 2 … bounces, W/m², where the solver goes bounce by bounce: the partial sums of
+    /// Neumann's series. At most [`Solution::MAX_BOUNCES`] and the first.
+    pub bounces: Vec<Arc<Vec<Rgb>>>,
+}
+
+impl Solution {
+    /// Later bounces are not kept.
+    pub const MAX_BOUNCES: usize = 32;
+
+    /// Share of the light on surfaces that is still missing if the rest spreads evenly, in [0, 1].
+    pub fn missing_share(&self) -> f64 {
+        let missing = total(self.ambient.as_dvec3());
+        let arrived = self.mean_irradiance;
+        if missing > 0.0 { missing / (missing + arrived) } else { 0.0 }
+    }
 }
 
 /// Light on every element of the mesh, in the order of its elements.
@@ -67,12 +94,20 @@ pub struct Closure {
 /// Work done so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
 pub struct Counters {
-    /// Rays that carry light: shadow and escape rays.
+    /// All rays that carry light.
     pub rays: u64,
     /// Visibility rays between a receiver and a shooter.
     pub shadow_rays: u64,
     /// Rays that estimate how much of a shooter's flux leaves the scene.
     pub escape_rays: u64,
-    /// Point-to-polygon form factors in closed form.
+    /// Rays from shooters that carry their flux.
+    pub light_rays: u64,
+    /// Pairs of an element and a patch whose form factor was computed.
     pub form_factors: u64,
+    /// Patches that shot or gathered.
+    pub updates: u64,
+    /// Form factors above 1, before they were cut down to it.
+    pub clamped: u64,
+    /// Pairs too near for a hemicube, computed in closed form instead.
+    pub near_field: u64,
 }

@@ -1,12 +1,16 @@
 //! What the window may ask of the solver thread.
 
 use crate::methods::Settings;
+use crate::scene::Scene;
+use std::sync::Arc;
 
 /// Commands take effect in the order they are sent; of several of one kind the newest wins.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
     /// Opens a scene: a path or the name of a built-in one.
     Load(String),
+    /// Opens a scene that is in memory.
+    Show(Shown),
     /// Adds a ceiling light to a scene that has no emitter.
     AddCeilingLight,
     /// Applies settings; a new mesh or a new method starts from the emitters again.
@@ -17,4 +21,16 @@ pub enum Command {
     Step(u64),
     /// Starts over from the emitters, paused.
     Reset,
+    /// Computes what this patch sees, or forgets about it.
+    Pick(Option<u32>),
+}
+
+/// A scene that is in memory. Two are equal if they are the same copy.
+#[derive(Clone, Debug)]
+pub struct Shown(pub Arc<Scene>);
+
+impl PartialEq for Shown {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
 }

@@ -36,10 +36,10 @@ impl Mailbox {
     /// Puts a command in and interrupts the work that it supersedes.
     pub fn post(&self, command: Command) {
         let mut queue = self.lock();
-        if matches!(command, Command::Load(_)) {
+        if opens_a_scene(&command) {
             self.load.request();
         }
-        if matches!(command, Command::Load(_) | Command::Configure(_)) {
+        if opens_a_scene(&command) || matches!(command, Command::Configure(_)) {
             self.mesh.request();
         }
         merge(&mut queue.commands, command);
@@ -70,10 +70,10 @@ impl Mailbox {
         if queue.commands.is_empty() {
             self.step.clear();
         }
-        if !queue.commands.iter().any(|command| matches!(command, Command::Load(_))) {
+        if !queue.commands.iter().any(opens_a_scene) {
             self.load.clear();
         }
-        if !queue.commands.iter().any(|command| matches!(command, Command::Load(_) | Command::Configure(_))) {
+        if !queue.commands.iter().any(|command| opens_a_scene(command) || matches!(command, Command::Configure(_))) {
             self.mesh.clear();
         }
         command.map_or(Mail::Empty, Mail::Command)
@@ -99,11 +99,15 @@ impl Mailbox {
     }
 }
 
+fn opens_a_scene(command: &Command) -> bool {
+    matches!(command, Command::Load(_) | Command::Show(_))
+}
+
 /// Adds a command and drops those that it makes pointless.
 fn merge(commands: &mut VecDeque<Command>, new: Command) {
     match &new {
         // Settings are not about one scene.
-        Command::Load(_) => commands.retain(|old| matches!(old, Command::Configure(_))),
+        Command::Load(_) | Command::Show(_) => commands.retain(|old| matches!(old, Command::Configure(_))),
         Command::Configure(_) => commands.retain(|old| !matches!(old, Command::Configure(_))),
         Command::Run | Command::Pause => commands.retain(|old| !matches!(old, Command::Run | Command::Pause)),
         Command::Step(more) => {
@@ -115,6 +119,7 @@ fn merge(commands: &mut VecDeque<Command>, new: Command) {
         Command::Reset => {
             commands.retain(|old| !matches!(old, Command::Run | Command::Pause | Command::Step(_) | Command::Reset));
         }
+        Command::Pick(_) => commands.retain(|old| !matches!(old, Command::Pick(_))),
         Command::AddCeilingLight => {}
     }
     commands.push_back(new);

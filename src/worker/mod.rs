@@ -4,16 +4,18 @@
 //! ever waits for the other.
 
 mod command;
+mod history;
 mod mailbox;
 mod pool;
 mod run;
 mod solver;
 
-pub use command::Command;
-pub use run::Run;
+pub use command::{Command, Shown};
+pub use history::{Curve, CurvePoint};
+pub use run::{Refused, Run};
 
 use crate::methods::{Method, Settings};
-use crate::solution::Solution;
+use crate::solution::{Picked, Solution};
 use crate::world::World;
 use mailbox::Mailbox;
 use solver::Solver;
@@ -27,6 +29,10 @@ pub struct Snapshot {
     pub world: Option<Arc<World>>,
     /// Belongs to `world`, element by element.
     pub solution: Option<Arc<Solution>>,
+    /// What the picked patch sees; belongs to `world`.
+    pub picked: Option<Arc<Picked>>,
+    /// How the runs on this scene went, the one under way last.
+    pub curves: Vec<Arc<Curve>>,
     /// The settings that `world` and `solution` were made with.
     pub settings: Settings,
     /// The last thing that went wrong, until the next command succeeds. The world and the solution of before stay.
@@ -49,7 +55,7 @@ pub enum Phase {
 }
 
 /// How a run of a method begins.
-pub type StartMethod = dyn Fn(Arc<World>, &Settings) -> Box<dyn Method> + Send;
+pub type StartMethod = dyn Fn(Arc<World>, &Settings) -> Result<Box<dyn Method>, Refused> + Send;
 
 /// A handle on the solver thread. Dropping it ends the thread.
 pub struct Worker {

@@ -16,8 +16,11 @@ pub struct Run {
 
 impl Run {
     /// A run of the method that the settings ask for, before its first step.
-    pub fn start(world: Arc<World>, settings: &Settings) -> Self {
-        Self::of(start_method(world, settings))
+    ///
+    /// # Errors
+    /// If it needs more memory than there is.
+    pub fn start(world: Arc<World>, settings: &Settings) -> Result<Self, Refused> {
+        Ok(Self::of(start_method(world, settings)?))
     }
 
     /// A run of this method, before its first step.
@@ -48,7 +51,20 @@ impl Run {
     }
 }
 
+/// Why a run cannot begin.
+#[derive(Debug, thiserror::Error)]
+pub enum Refused {
+    #[error(
+        "the matrix of {patches} patches and {elements} elements needs up to {needed_mib} MiB, and {available_mib} MiB are \
+         free; larger elements or progressive radiosity need less"
+    )]
+    Memory { patches: usize, elements: usize, needed_mib: u64, available_mib: u64 },
+}
+
 /// The method that the settings ask for.
-pub fn start_method(world: Arc<World>, settings: &Settings) -> Box<dyn Method> {
-    Box::new(Radiosity::new(world, *settings))
+///
+/// # Errors
+/// If it needs more memory than there is.
+pub fn start_method(world: Arc<World>, settings: &Settings) -> Result<Box<dyn Method>, Refused> {
+    Ok(Box::new(Radiosity::new(world, *settings)))
 }

@@ -1,11 +1,13 @@
 //! The loop of the solver thread.
 
+use super::history::History;
 use super::mailbox::{Mail, Mailbox};
-use super::{Command, Phase, Run, Slot, Snapshot, StartMethod};
+use super::{Command, Phase, Refused, Run, Slot, Snapshot, StartMethod};
 use crate::errors::with_causes;
 use crate::mesh::MeshSettings;
-use crate::methods::{Settings, Step};
+use crate::methods::{Settings, Step, radiosity};
 use crate::scene::Scene;
+use crate::solution::Solution;
 use crate::world::{World, WorldError, with_ceiling_light};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -20,6 +22,12 @@ enum NoWorld {
     /// A newer command made it pointless, which is no trouble.
     Superseded,
     Failed(String),
+}
+
+impl From<Refused> for NoWorld {
+    fn from(refused: Refused) -> Self {
+        Self::Failed(with_causes(&refused))
+    }
 }
 
 impl From<WorldError> for NoWorld {
@@ -39,6 +47,7 @@ pub struct Solver {
     /// What was published last; its parts are shared with whoever looks at it.
     snapshot: Snapshot,
     run: Option<Run>,
+    history: History,
     /// Steps still to do; `None` while there is no end to them.
     steps_left: Option<u64>,
     published: Instant,
@@ -47,7 +56,16 @@ pub struct Solver {
 impl Solver {
     pub fn new(mailbox: Arc<Mailbox>, slot: Arc<Slot>, start_method: Box<StartMethod>) -> Self {
         let snapshot = Snapshot::default();
-        Self { mailbox, slot, start_method, snapshot, run: None, steps_left: None, published: Instant::now() }
+        Self {
+            mailbox,
+            slot,
+            start_method,
+            snapshot,
+            run: None,
+            history: History::default(),
+            steps_left: None,
+            published: Instant::now(),
+        }
     }
 
     /// Serves until the mailbox is closed. A panic of a method ends its run, not the thread.
@@ -67,31 +85,34 @@ impl Solver {
 
     fn apply(&mut self, command: Command) {
         match command {
-            Command::Load(name) => self.load(&name),
+            Command::Load(name) => self.load(&name, || Scene::open(&name).map_err(|error| with_causes(&error))),
+            Command::Show(shown) => self.load(&shown.0.name, || Ok(Scene::clone(&shown.0))),
             Command::AddCeilingLight => self.add_ceiling_light(),
             Command::Configure(settings) => self.configure(settings),
             Command::Run => self.go(None),
             Command::Step(steps) => self.go(Some(steps)),
             Command::Pause => self.pause(),
             Command::Reset => self.restart(),
+            Command::Pick(patch) => self.pick(patch),
         }
     }
 
-    fn load(&mut self, name: &str) {
+    fn load(&mut self, name: &str, open: impl FnOnce() -> Result<Scene, String>) {
         let before = self.snapshot.phase.clone();
         self.snapshot.phase = Phase::Loading(name.to_owned());
         self.publish();
         let old_mesh = self.snapshot.settings.mesh;
         if self.snapshot.world.is_some() {
             // A size in metres that suits one scene may be far too fine for another.
-            self.snapshot.settings.mesh = MeshSettings::default();
+            self.snapshot.settings.mesh = MeshSettings { element_size: None, ..old_mesh };
         }
-        let built = Scene::open(name).map_err(|error| NoWorld::Failed(with_causes(&error)));
-        let built = built.and_then(|scene| self.build(scene));
-        if built.is_err() {
+        let built = open().map_err(NoWorld::Failed).and_then(|scene| self.build(scene));
+        let old_history = std::mem::take(&mut self.history);
+        if !self.take_over(built, before) {
             self.snapshot.settings.mesh = old_mesh;
+            self.history = old_history;
         }
-        self.take_over(built, before);
+        self.publish();
     }
 
     fn add_ceiling_light(&mut self) {
@@ -99,6 +120,7 @@ impl Solver {
         let before = self.snapshot.phase.clone();
         let built = self.build(with_ceiling_light(&world.scene));
         self.take_over(built, before);
+        self.publish();
     }
 
     fn build(&self, scene: Scene) -> Result<World, NoWorld> {
@@ -109,56 +131,88 @@ impl Solver {
         let old = std::mem::replace(&mut self.snapshot.settings, settings);
         let Some(world) = self.snapshot.world.clone() else { return self.publish() };
         if old.mesh == settings.mesh {
-            if !self.run.as_mut().is_some_and(|run| run.configure(&settings)) {
-                self.start(world);
+            self.snapshot.error = None;
+            if self.run.as_mut().is_some_and(|run| run.configure(&settings)) {
+                self.history.reconfigure(&settings);
+            } else if let Err(refused) = self.start(world) {
+                self.snapshot.error = Some(with_causes(&refused));
+                self.snapshot.settings = old;
             }
             if self.snapshot.phase != Phase::Running {
                 self.snapshot.phase = Phase::Paused;
             }
-            self.snapshot.error = None;
             return self.publish();
         }
         let phase = self.snapshot.phase.clone();
         let remeshed = world.remeshed(&settings.mesh, self.mailbox.mesh_cancel()).map_err(NoWorld::from);
-        if remeshed.is_err() {
+        if !self.take_over(remeshed, phase) {
             self.snapshot.settings = old;
         }
-        self.take_over(remeshed, phase);
+        self.publish();
     }
 
-    /// Shows a new world before its first step, or says why there is none and leaves everything as it was.
-    fn take_over(&mut self, built: Result<World, NoWorld>, before: Phase) {
-        match built {
-            Ok(world) => {
+    /// Shows a new world before its first step, or says why there is none, leaves everything as it was and returns false.
+    fn take_over(&mut self, built: Result<World, NoWorld>, before: Phase) -> bool {
+        let started = built.and_then(|world| Ok(self.start(Arc::new(world))?));
+        match started {
+            Ok(()) => {
                 self.snapshot.error = None;
                 self.snapshot.phase = if before == Phase::Running { Phase::Running } else { Phase::Paused };
-                self.start(Arc::new(world));
+                true
             }
             Err(no_world) => {
                 if let NoWorld::Failed(reason) = no_world {
                     self.snapshot.error = Some(reason);
                 }
                 self.snapshot.phase = before;
+                false
             }
         }
-        self.publish();
     }
 
-    fn start(&mut self, world: Arc<World>) {
-        self.snapshot.world = Some(world.clone());
+    /// Begins a run on a world; if it is refused, everything stays as it was.
+    fn start(&mut self, world: Arc<World>) -> Result<(), Refused> {
+        let old_world = self.snapshot.world.replace(world.clone());
         // Should the method panic before its first step, there is no light that belongs to this world.
-        self.snapshot.solution = None;
-        let run = Run::of((self.start_method)(world, &self.snapshot.settings));
-        self.snapshot.solution = Some(Arc::new(run.solution()));
-        self.run = Some(run);
+        let old_solution = self.snapshot.solution.take();
+        match (self.start_method)(world.clone(), &self.snapshot.settings) {
+            Ok(method) => {
+                let run = Run::of(method);
+                let is_same_world = old_world.is_some_and(|old| Arc::ptr_eq(&old, &world));
+                self.snapshot.picked = self.snapshot.picked.take().filter(|_| is_same_world);
+                self.history.begin(&self.snapshot.settings);
+                self.record(run.solution());
+                self.run = Some(run);
+                Ok(())
+            }
+            Err(refused) => {
+                self.snapshot.world = old_world;
+                self.snapshot.solution = old_solution;
+                Err(refused)
+            }
+        }
     }
 
     fn restart(&mut self) {
         let Some(world) = self.snapshot.world.clone() else { return };
-        self.snapshot.error = None;
         self.snapshot.phase = Phase::Paused;
-        self.start(world);
+        self.snapshot.error = self.start(world).err().map(|refused| with_causes(&refused));
         self.publish();
+    }
+
+    /// Computes what a patch sees. Superseded by any newer command that would change it.
+    fn pick(&mut self, patch: Option<u32>) {
+        let Some(world) = &self.snapshot.world else { return };
+        let patch = patch.filter(|&patch| (patch as usize) < world.mesh.patches.len());
+        let look = |patch| radiosity::pick(world, &self.snapshot.settings, patch);
+        self.snapshot.picked = patch.map(|patch| Arc::new(look(patch)));
+        self.publish();
+    }
+
+    fn record(&mut self, solution: Solution) {
+        self.history.record(&solution);
+        self.snapshot.curves = self.history.curves().to_vec();
+        self.snapshot.solution = Some(Arc::new(solution));
     }
 
     fn go(&mut self, steps: Option<u64>) {
@@ -181,8 +235,10 @@ impl Solver {
 
     fn step(&mut self) {
         let Some(run) = &mut self.run else { return };
-        match run.step(self.mailbox.step_cancel()) {
+        let step = run.step(self.mailbox.step_cancel());
+        match step {
             Step::Cancelled => return,
+            Step::Prepared => {}
             Step::Converged => self.snapshot.phase = Phase::Converged,
             Step::Advanced => {
                 if let Some(left) = &mut self.steps_left {
@@ -193,7 +249,7 @@ impl Solver {
                 }
             }
         }
-        let is_stepping = self.steps_left.is_some();
+        let is_stepping = self.steps_left.is_some() && step != Step::Prepared;
         if is_stepping || self.snapshot.phase != Phase::Running || self.published.elapsed() >= PUBLISH_INTERVAL {
             self.publish_solution();
         }
@@ -209,8 +265,8 @@ impl Solver {
     }
 
     fn publish_solution(&mut self) {
-        if let Some(run) = &self.run {
-            self.snapshot.solution = Some(Arc::new(run.solution()));
+        if let Some(solution) = self.run.as_ref().map(Run::solution) {
+            self.record(solution);
         }
         self.publish();
     }

@@ -137,14 +137,14 @@ fn mesh(
             let area =
                 is_reached.iter().enumerate().filter(|(_, reached)| **reached).map(|(side, _)| surfaces.area(side));
             let wanted = MeshSettings::DEFAULT_ELEMENTS.max(ELEMENTS_PER_POLYGON * scene.polygons.len() as f64);
-            element_size_for(scene, is_reached, area.sum(), wanted)
+            element_size_for(scene, is_reached, settings.elements_per_patch_edge, area.sum(), wanted)
         }
     };
-    let elements = estimated_elements(scene, is_reached, size);
+    let elements = estimated_elements(scene, is_reached, settings.elements_per_patch_edge, size);
     if elements > MeshSettings::MAX_ELEMENTS {
         return Err(WorldError::TooFine { size, elements });
     }
-    let mut mesh = subdivide(scene, is_reached, size, cancel)?;
+    let mut mesh = subdivide(scene, is_reached, settings.elements_per_patch_edge, size, cancel)?;
     let shares = exposure::shares(&mesh, tracer, cancel)?;
     mesh.expose(&shares);
     Ok((mesh, size as f32))

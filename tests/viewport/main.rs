@@ -63,7 +63,7 @@ fn square() -> World {
 }
 
 fn build(scene: Scene, element_size: f32) -> World {
-    let settings = MeshSettings { element_size: Some(element_size) };
+    let settings = MeshSettings { element_size: Some(element_size), ..MeshSettings::default() };
     World::build(scene, &settings, &Cancel::default()).expect("a world")
 }
 
@@ -83,6 +83,7 @@ fn solution(world: &World, radiosity: impl Fn(usize) -> Rgb) -> Solution {
             unshot: radiosity.iter().map(|&value| 0.2 * value).collect(),
             radiosity,
         },
+        ..Solution::default()
     }
 }
 

@@ -9,7 +9,7 @@ use lightwell::app::{panels, theme};
 use lightwell::math::rgb::Rgb64;
 use lightwell::methods::Settings;
 use lightwell::scene::{Finding, FindingKind, Severity};
-use lightwell::solution::{Closure, Counters, ElementLight, Energy, Solution};
+use lightwell::solution::{Closure, Counters, Energy, Solution};
 use lightwell::worker::Phase;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -123,7 +123,7 @@ pub fn solution() -> Solution {
         closure: Closure { mean: 0.0123, worst: 0.07 },
         counters: Counters { rays: 31_000_000, ..Counters::default() },
         shooter: None,
-        light: ElementLight::default(),
+        ..Solution::default()
     }
 }
 

@@ -53,7 +53,8 @@ pub fn worker(work: impl Fn(u64, &Cancel) -> Step + Send + Sync + 'static) -> Wo
 pub fn method(work: impl Fn(u64, &Cancel) -> Step + Send + Sync + 'static) -> Box<StartMethod> {
     let work: Arc<Work> = Arc::new(work);
     Box::new(move |world, settings| {
-        Box::new(Fake { work: work.clone(), steps: 0, seed: settings.seed, elements: world.mesh.elements.len() })
+        let elements = world.mesh.elements.len();
+        Ok(Box::new(Fake { work: work.clone(), steps: 0, seed: settings.seed, elements }))
     })
 }
 

@@ -9,7 +9,7 @@ use lightwell::methods::radiosity::Radiosity;
 use lightwell::methods::{Method, Settings, Step};
 use lightwell::scene::Scene;
 use lightwell::solution::Solution;
-use lightwell::worker::{Command, Phase, Run, Snapshot, Worker};
+use lightwell::worker::{Command, Phase, Refused, Run, Snapshot, Worker};
 use lightwell::world::World;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -123,8 +123,8 @@ fn a_step_that_was_interrupted_changes_nothing() {
     let settings = with_elements(0.012);
     let cancelled = Arc::new(AtomicU64::new(0));
     let counter = cancelled.clone();
-    let start = move |world: Arc<World>, settings: &Settings| -> Box<dyn Method> {
-        Box::new(Counting(Radiosity::new(world, *settings), counter.clone()))
+    let start = move |world: Arc<World>, settings: &Settings| -> Result<Box<dyn Method>, Refused> {
+        Ok(Box::new(Counting(Radiosity::new(world, *settings), counter.clone())))
     };
     let worker = Worker::spawn_with(Box::new(start), || ());
     worker.send(Command::Configure(settings));
@@ -139,7 +139,7 @@ fn a_step_that_was_interrupted_changes_nothing() {
     assert!(cancelled.load(Ordering::SeqCst) > 0, "no step was interrupted");
 
     let world = got.world.clone().expect("a world");
-    let mut run = Run::start(world, &settings);
+    let mut run = Run::start(world, &settings).expect("enough memory");
     for _ in 0..STEPS {
         assert_eq!(run.step(&Cancel::default()), Step::Advanced);
     }

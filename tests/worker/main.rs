@@ -46,7 +46,10 @@ fn name(snapshot: &Snapshot) -> &str {
 
 /// Settings for a mesh with elements of this size.
 fn with_elements(element_size: f32) -> Settings {
-    Settings { mesh: MeshSettings { element_size: Some(element_size) }, ..Settings::default() }
+    Settings {
+        mesh: MeshSettings { element_size: Some(element_size), ..MeshSettings::default() },
+        ..Settings::default()
+    }
 }
 
 /// A floor in a folder of its own, with nothing that emits.

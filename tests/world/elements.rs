@@ -74,7 +74,7 @@ fn without_a_size_the_mesh_has_about_as_many_elements_as_stated() {
 #[test]
 fn sizes_that_cannot_be_used_are_refused() {
     let refusal = |size: f32| {
-        let settings = MeshSettings { element_size: Some(size) };
+        let settings = MeshSettings { element_size: Some(size), ..MeshSettings::default() };
         World::build(builtin("furnace"), &settings, &Cancel::default()).err().expect("a refusal")
     };
     for size in [0.0, -1.0, f32::NAN, f32::INFINITY] {
@@ -91,7 +91,7 @@ fn sizes_that_cannot_be_used_are_refused() {
 
 #[test]
 fn a_remeshed_world_is_the_one_that_would_have_been_built() {
-    let fine = MeshSettings { element_size: Some(0.06) };
+    let fine = MeshSettings { element_size: Some(0.06), ..MeshSettings::default() };
     for scene in [builtin("cornell-box"), motley()] {
         let built = World::build(scene.clone(), &fine, &Cancel::default()).expect("a world");
         let remeshed = build(scene).remeshed(&fine, &Cancel::default()).expect("a world");
@@ -102,8 +102,10 @@ fn a_remeshed_world_is_the_one_that_would_have_been_built() {
         assert_eq!(remeshed.scene.polygons, built.scene.polygons);
         assert_eq!(remeshed.scene.findings, built.scene.findings);
         assert_eq!((remeshed.viewpoint, remeshed.is_closed()), (built.viewpoint, built.is_closed()));
-        let refused =
-            remeshed.remeshed(&MeshSettings { element_size: Some(1e-9) }, &Cancel::default()).err().expect("a refusal");
+        let refused = remeshed
+            .remeshed(&MeshSettings { element_size: Some(1e-9), ..MeshSettings::default() }, &Cancel::default())
+            .err()
+            .expect("a refusal");
         assert!(matches!(refused, WorldError::TooFine { .. }));
     }
 }

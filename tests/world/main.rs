@@ -23,7 +23,7 @@ fn build(scene: Scene) -> World {
 
 /// A world with elements of this size.
 fn build_with(scene: Scene, element_size: f32) -> World {
-    let settings = MeshSettings { element_size: Some(element_size) };
+    let settings = MeshSettings { element_size: Some(element_size), ..MeshSettings::default() };
     World::build(scene, &settings, &Cancel::default()).expect("a world")
 }
 

@@ -84,7 +84,7 @@ mod tests {
             viewpoint: None,
             findings: Vec::new(),
         };
-        subdivide(&scene, &[true, false, true, false], size, &Cancel::default()).expect("nothing cancels it")
+        subdivide(&scene, &[true, false, true, false], 4, size, &Cancel::default()).expect("nothing cancels it")
     }
 
     /// Σ A_e F_e over the second square for a first square that is one patch.

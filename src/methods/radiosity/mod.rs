@@ -15,7 +15,7 @@ use crate::cancel::Cancel;
 use crate::math::rgb::{Rgb64, total};
 use crate::mesh::{Element, Mesh, Patch};
 use crate::methods::{Method, Settings, Step};
-use crate::solution::{Counters, ElementLight, Energy, Solution};
+use crate::solution::{Counters, ElementLight, Energy, ItemBuffer, Picked, Solution};
 use crate::world::World;
 use escape::{ESCAPE_RAYS, escaping_share};
 use form_factor::Shooter;
@@ -163,6 +163,31 @@ fn expected_irradiance(world: &World, reflectance: &[Rgb64], emitted: Rgb64) -> 
     total(emitted * arriving / (area * (Rgb64::ONE - mean * arriving)))
 }
 
+/// What a patch sees, by the method of the settings.
+pub fn pick(world: &Arc<World>, settings: &Settings, patch: u32) -> Picked {
+    let mut method = Radiosity::new(world.clone(), *settings);
+    let shooter = &world.mesh.patches[patch as usize];
+    let shot = Shot {
+        world,
+        shooter: Shooter::new(shooter),
+        sightline: Sightline::new(world, shooter, Rays { most: settings.shadow_rays, per_form_factor: 1.0 }),
+        seed: settings.seed,
+        step: 0,
+        cancel: &Cancel::default(),
+    };
+    method.receivers.gather(&shot, &mut method.form_factors);
+    let of = |receiver: &Patch| {
+        let elements = receiver.elements.start as usize..receiver.elements.end as usize;
+        elements.map(|i| world.mesh.elements[i].area * method.form_factors[i]).sum::<f64>() / shooter.area
+    };
+    Picked {
+        patch,
+        form_factors: world.mesh.patches.iter().map(of).collect(),
+        escaping: escaping_share(world, shooter, settings.seed, 0),
+        item_buffer: Arc::new(ItemBuffer { resolution: 0, faces: Default::default() }),
+    }
+}
+
 impl Method for Radiosity {
     /// One shot. It takes (number of elements) · (visibility rays) shadow rays, fewer where patches face away.
     fn step(&mut self, cancel: &Cancel) -> Step {
@@ -220,6 +245,7 @@ impl Method for Radiosity {
             counters: self.counters,
             shooter: self.shooter,
             light: self.light(),
+            ..Solution::default()
         }
     }
 }
