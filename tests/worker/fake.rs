@@ -40,6 +40,7 @@ impl Method for Fake {
             counters: Counters::default(),
             shooter: None,
             light: ElementLight { irradiance: light.clone(), radiosity: light.clone(), unshot: light },
+            ..Solution::default()
         }
     }
 }
