@@ -85,6 +85,11 @@ pub fn percent(share: f64) -> String {
     format!("{}{THIN_SPACE}%", minus(&number))
 }
 
+/// A share of one as a whole percentage, rounded down, so that it is 100 % only when all is there.
+pub fn percent_whole(share: f32) -> String {
+    format!("{}{THIN_SPACE}%", (100.0 * share).floor())
+}
+
 /// A share of one as a percentage, without zeros at its end: `100 %`, `0.1 %`.
 pub fn percent_short(share: f64) -> String {
     // Two significant digits first, so that 0.1 % is not 0.100000000000001 %.
@@ -185,6 +190,8 @@ mod tests {
         assert_eq!(shown(percent(0.0)), "0_%");
         assert_eq!(shown(percent_short(10_f64.powi(-3))), "0.1_%");
         assert_eq!(shown(percent_short(1.0)), "100_%");
+        assert_eq!(shown(percent_whole(0.439)), "43_%");
+        assert_eq!(shown(percent_whole(0.999)), "99_%");
     }
 
     #[test]

@@ -50,9 +50,9 @@ pub const HELP: KeyboardShortcut = key(Key::F1);
 /// Every key of the window, in the order of its help.
 pub const BINDINGS: [Binding; 16] = [
     Binding::new(RUN, "Run or pause", |model| model.can_run().then(|| run_or_pause(model))),
-    Binding::new(STEP_1, "One shot", |model| step(model, 1)).repeating(),
-    Binding::new(STEP_10, "Ten shots", |model| step(model, 10)),
-    Binding::new(STEP_100, "A hundred shots", |model| step(model, 100)),
+    Binding::new(STEP_1, "One step: a shot or a sweep", |model| step(model, 1)).repeating(),
+    Binding::new(STEP_10, "Ten steps", |model| step(model, 10)),
+    Binding::new(STEP_100, "A hundred steps", |model| step(model, 100)),
     Binding::new(RESET, "Start over from the emitters", |model| {
         model.scene.is_some().then_some(Action::Send(Command::Reset))
     }),
@@ -89,8 +89,8 @@ pub fn run_or_pause(model: &Model) -> Action {
     Action::Send(if model.is_running() { Command::Pause } else { Command::Run })
 }
 
-fn step(model: &Model, shots: u64) -> Option<Action> {
-    model.can_run().then_some(Action::Send(Command::Step(shots)))
+fn step(model: &Model, steps: u64) -> Option<Action> {
+    model.can_run().then_some(Action::Send(Command::Step(steps)))
 }
 
 fn view(model: &Model, view: View) -> Option<Action> {

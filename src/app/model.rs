@@ -2,7 +2,7 @@
 
 use crate::cli::picture::Format;
 use crate::math::rgb::Rgb64;
-use crate::methods::Settings;
+use crate::methods::{Settings, Solver};
 use crate::scene::{Finding, FindingKind};
 use crate::solution::Solution;
 use crate::viewport::{Exposure, ToneCurve, View};
@@ -47,13 +47,29 @@ impl Model<'_> {
         *self.phase == Phase::Running
     }
 
-    /// How far the light is between the emitters (0) and the stop limit (1), on a logarithmic scale: shooting takes
+    /// Whether a step of the solver is a sweep over all patches, and not a shot of one.
+    pub fn sweeps(&self) -> bool {
+        matches!(self.settings.solver, Solver::Jacobi | Solver::GaussSeidel)
+    }
+
+    /// What a step of the solver is called.
+    pub fn step_name(&self) -> &'static str {
+        if self.sweeps() { "sweep" } else { "shot" }
+    }
+
+    /// How much of the matrix is built, in [0, 1], while it is.
+    pub fn preparation(&self) -> Option<f32> {
+        self.solution.and_then(|solution| solution.preparation)
+    }
+
+    /// How far the light is between the emitters (0) and the stop limit (1), on a logarithmic scale: a solver takes
     /// about as long from 10 % to 1 % of unshot flux as from 100 % to 10 %.
     pub fn progress(&self) -> f32 {
         let Some(solution) = self.solution.filter(|solution| solution.energy.emitted != Rgb64::ZERO) else {
             return 0.0;
         };
-        let unshot = solution.energy.unshot_share();
+        // Overshoot may lend more light than there is left.
+        let unshot = solution.energy.unshot_share().abs();
         let limit = self.settings.unshot_limit;
         if solution.converged || unshot <= limit {
             return 1.0;

@@ -1,6 +1,6 @@
 //! The dialogs: saving a picture, typing a path, the keys, and what this program is.
 
-use super::widgets::{Choice, heading, labelled, primary_button, row, segmented};
+use super::widgets::{Segment, heading, labelled, primary_button, row, segmented};
 use crate::app::action::Action;
 use crate::app::keys::BINDINGS;
 use crate::app::model::{Dialog, Model, PathPurpose, PictureRequest};
@@ -37,7 +37,7 @@ fn picture(ui: &mut Ui, model: &Model, request: PictureRequest, actions: &mut Ve
     labelled(ui, "Width", "In pixels", |ui| ui.add(side(&mut edited.size[0])));
     labelled(ui, "Height", "In pixels", |ui| ui.add(side(&mut edited.size[1])));
     row(ui, "Samples", "Samples a pixel", |ui, _| {
-        let choices = SAMPLES.map(|(samples, name)| Choice {
+        let choices = SAMPLES.map(|(samples, name)| Segment {
             name,
             hover: "More samples make smoother edges and take longer",
             shortcut: None,
@@ -48,7 +48,7 @@ fn picture(ui: &mut Ui, model: &Model, request: PictureRequest, actions: &mut Ve
         }
     });
     row(ui, "Format", "What is written", |ui, _| {
-        let choices = FORMATS.map(|(format, name, hover)| Choice {
+        let choices = FORMATS.map(|(format, name, hover)| Segment {
             name,
             hover,
             shortcut: None,
@@ -78,7 +78,7 @@ fn sizes(ui: &mut Ui, model: &Model, request: &mut PictureRequest) {
         ("1920 × 1080", [1920, 1080]),
         ("3840 × 2160", [3840, 2160]),
     ];
-    let choices = sizes.map(|(name, size)| Choice {
+    let choices = sizes.map(|(name, size)| Segment {
         name,
         hover: "Width × height in pixels",
         shortcut: None,

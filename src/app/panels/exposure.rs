@@ -1,6 +1,6 @@
 //! How bright the picture is, and how its range is bent to fit the screen.
 
-use super::widgets::{Choice, labelled, row, segmented, slider};
+use super::widgets::{Segment, labelled, row, segmented, slider};
 use crate::app::action::Action;
 use crate::app::format;
 use crate::app::model::{Look, Model};
@@ -29,7 +29,7 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     if response.changed() {
         actions.push(Action::SetLook(Look { exposure: Exposure::Manual(ev), ..look }));
     }
-    let choices = ToneCurve::ALL.map(|tone| Choice {
+    let choices = ToneCurve::ALL.map(|tone| Segment {
         name: tone.label(),
         hover: match tone {
             ToneCurve::Filmic => "Bright light fades to white as on film",

@@ -1,6 +1,6 @@
 //! How the light is drawn: the view, what is drawn over it, and where the camera goes.
 
-use super::widgets::{Choice, segmented, toggle, with_key};
+use super::widgets::{Segment, segmented, toggle, with_key};
 use crate::app::action::{Action, CameraMove};
 use crate::app::keys;
 use crate::app::model::{Look, Model};
@@ -28,7 +28,7 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
 }
 
 fn views(ui: &mut Ui, look: Look, actions: &mut Vec<Action>) {
-    let choices = View::ALL.map(|view| Choice {
+    let choices = View::ALL.map(|view| Segment {
         name: view.label(),
         hover: match view {
             View::Patches => "One colour an element: what the solver computed",
