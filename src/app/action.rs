@@ -1,6 +1,7 @@
 //! What a panel or a key may ask for. Panels only return these; [`super::Explorer`] is the one place that acts on them.
 
-use super::model::{Dialog, Look, PictureRequest, Theme};
+use super::chart::Chart;
+use super::model::{Dialog, Look, LowerPanel, PictureRequest, Theme};
 use crate::methods::Settings;
 use crate::worker::Command;
 use egui::Vec2;
@@ -30,6 +31,9 @@ pub enum Action {
     /// Saves a picture to this file.
     SavePicture(PictureRequest, PathBuf),
     SetTheme(Theme),
+    /// Opens a panel below the viewport, or closes the one that is open.
+    ShowLowerPanel(Option<LowerPanel>),
+    SetChart(Chart),
     /// Opens a dialog, or replaces the contents of the one that is open.
     ShowDialog(Dialog),
     CloseDialog,

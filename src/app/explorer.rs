@@ -137,6 +137,9 @@ impl Explorer {
             viewport_size: self.pane.size(),
             exposure_ev: self.pane.exposure_ev(&self.look),
             theme: self.preferences.theme,
+            lower: self.preferences.lower,
+            chart: self.preferences.chart,
+            curves: &self.snapshot.curves,
             recent: &self.preferences.recent,
             notices: self.notices.shown(),
             dialog: self.dialog.as_ref(),
@@ -171,6 +174,8 @@ impl Explorer {
                 self.preferences.theme = theme;
                 ctx.set_theme(theme);
             }
+            Action::ShowLowerPanel(panel) => self.preferences.lower = panel,
+            Action::SetChart(chart) => self.preferences.chart = chart,
             Action::ShowDialog(dialog) => self.dialog = Some(dialog),
             Action::CloseDialog => self.dialog = None,
             Action::DismissError => self.is_error_dismissed = true,

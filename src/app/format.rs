@@ -29,6 +29,17 @@ pub fn si(value: f64, unit: &str) -> String {
     format!("{}{THIN_SPACE}{prefix}{unit}", minus(&format!("{scaled:.decimals$}")))
 }
 
+/// An SI prefix and as few digits as it takes, for the axis of a chart: `0`, `200`, `1.5 k`, `20 M`, `400 ms`.
+pub fn short(value: f64, unit: &str) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let text = si(value, unit);
+    let (number, unit) = text.split_once(THIN_SPACE).unwrap_or((&text, ""));
+    let number = if number.contains('.') { number.trim_end_matches('0').trim_end_matches('.') } else { number };
+    if unit.is_empty() { number.to_owned() } else { format!("{number}{THIN_SPACE}{unit}") }
+}
+
 /// A whole number in groups of three digits: `20 480`.
 pub fn count(value: u64) -> String {
     let digits = value.to_string();
@@ -150,6 +161,15 @@ mod tests {
         assert_eq!(shown(si(0.0, "W")), "0_W");
         assert_eq!(shown(si(3.1e-16, "W")), "3.1e−16_W");
         assert_eq!(si(f64::NAN, "W"), NO_VALUE);
+    }
+
+    #[test]
+    fn short_numbers_have_no_idle_digits() {
+        for (value, unit, expected) in
+            [(0.0, "s", "0"), (200.0, "", "200"), (1500.0, "", "1.5_k"), (2e7, "", "20_M"), (0.4, "s", "400_ms")]
+        {
+            assert_eq!(shown(short(value, unit)), expected);
+        }
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The keys of the window: one table that drives the window, its menus, its tooltips and its help.
 
 use super::action::{Action, CameraMove};
-use super::model::{Dialog, Look, Model};
+use super::model::{Dialog, Look, LowerPanel, Model};
 use crate::viewport::View;
 use crate::worker::Command;
 use egui::{Event, InputState, Key, KeyboardShortcut, Modifiers};
@@ -40,6 +40,7 @@ pub const SMOOTH: KeyboardShortcut = key(Key::Num2);
 pub const UNSHOT: KeyboardShortcut = key(Key::Num3);
 pub const WIREFRAME: KeyboardShortcut = key(Key::W);
 pub const SHOOTER: KeyboardShortcut = key(Key::O);
+pub const CONVERGENCE: KeyboardShortcut = key(Key::C);
 pub const FIT: KeyboardShortcut = key(Key::F);
 pub const HOME: KeyboardShortcut = key(Key::H);
 pub const SAVE_PICTURE: KeyboardShortcut = key(Key::S);
@@ -48,7 +49,7 @@ pub const QUIT: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key
 pub const HELP: KeyboardShortcut = key(Key::F1);
 
 /// Every key of the window, in the order of its help.
-pub const BINDINGS: [Binding; 16] = [
+pub const BINDINGS: [Binding; 17] = [
     Binding::new(RUN, "Run or pause", |model| model.can_run().then(|| run_or_pause(model))),
     Binding::new(STEP_1, "One step: a shot or a sweep", |model| step(model, 1)).repeating(),
     Binding::new(STEP_10, "Ten steps", |model| step(model, 10)),
@@ -65,6 +66,7 @@ pub const BINDINGS: [Binding; 16] = [
     Binding::new(SHOOTER, "Show or hide the outline of the shooter", |model| {
         Some(Action::SetLook(Look { show_shooter: !model.look.show_shooter, ..model.look }))
     }),
+    Binding::new(CONVERGENCE, "Open or close the convergence chart", |model| lower(model, LowerPanel::Convergence)),
     Binding::new(FIT, "Fit the scene into the view", |model| camera(model, CameraMove::Fit)),
     Binding::new(HOME, "Back to the first view of the scene", |model| camera(model, CameraMove::Home)),
     Binding::new(SAVE_PICTURE, "Save a picture of the view", |model| {
@@ -84,6 +86,13 @@ pub fn of_view(view: View) -> KeyboardShortcut {
     }
 }
 
+/// The key of a panel below the viewport.
+pub fn of_lower_panel(panel: LowerPanel) -> KeyboardShortcut {
+    match panel {
+        LowerPanel::Convergence => CONVERGENCE,
+    }
+}
+
 /// What the transport's first button and its key ask for.
 pub fn run_or_pause(model: &Model) -> Action {
     Action::Send(if model.is_running() { Command::Pause } else { Command::Run })
@@ -95,6 +104,10 @@ fn step(model: &Model, steps: u64) -> Option<Action> {
 
 fn view(model: &Model, view: View) -> Option<Action> {
     Some(Action::SetLook(Look { view, ..model.look }))
+}
+
+fn lower(model: &Model, panel: LowerPanel) -> Option<Action> {
+    Some(Action::ShowLowerPanel(Some(panel).filter(|panel| model.lower != Some(*panel))))
 }
 
 fn camera(model: &Model, movement: CameraMove) -> Option<Action> {

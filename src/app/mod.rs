@@ -4,6 +4,7 @@
 //! where anything changes. Only this module names egui, eframe and rfd.
 
 pub mod action;
+pub mod chart;
 mod explorer;
 mod file_dialogs;
 pub mod format;

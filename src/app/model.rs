@@ -1,13 +1,16 @@
 //! What the panels show. They read a [`Model`] and return [`super::action::Action`]s; nothing here can be changed by them.
 
+use super::chart::Chart;
+use crate::choice::Choice;
 use crate::cli::picture::Format;
 use crate::math::rgb::Rgb64;
 use crate::methods::{Settings, Solver};
 use crate::scene::{Finding, FindingKind};
 use crate::solution::Solution;
 use crate::viewport::{Exposure, ToneCurve, View};
-use crate::worker::{Phase, Snapshot};
+use crate::worker::{Curve, Phase, Snapshot};
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::Duration;
 
 pub use egui::Theme;
@@ -28,6 +31,11 @@ pub struct Model<'a> {
     /// The exposure that is in force, in EV.
     pub exposure_ev: f32,
     pub theme: Theme,
+    /// What is open below the viewport.
+    pub lower: Option<LowerPanel>,
+    pub chart: Chart,
+    /// How the runs on this scene went, the one under way last.
+    pub curves: &'a [Arc<Curve>],
     /// Scene files that were opened before, newest first.
     pub recent: &'a [PathBuf],
     pub notices: &'a [Notice],
@@ -131,6 +139,36 @@ impl Default for Look {
             show_shooter: true,
             exposure: Exposure::Automatic,
             tone: ToneCurve::default(),
+        }
+    }
+}
+
+/// What can be open below the viewport.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LowerPanel {
+    Convergence,
+}
+
+impl Choice for LowerPanel {
+    const ALL: &'static [Self] = &[Self::Convergence];
+    const KIND: &'static str = "panel";
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Convergence => "convergence",
+        }
+    }
+
+    fn label(self) -> &'static str {
+        match self {
+            Self::Convergence => "Convergence",
+        }
+    }
+
+    fn meaning(self) -> &'static str {
+        match self {
+            Self::Convergence => "How fast each run on this scene came near its end, on one chart",
         }
     }
 }

@@ -4,14 +4,16 @@ use egui::{Rect, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::NodeT;
 use lightwell::app::action::Action;
-use lightwell::app::model::{Dialog, FrameTime, Look, Model, Notice, SceneFacts, Theme};
+use lightwell::app::chart::Chart;
+use lightwell::app::model::{Dialog, FrameTime, Look, LowerPanel, Model, Notice, SceneFacts, Theme};
 use lightwell::app::{panels, theme};
 use lightwell::math::rgb::Rgb64;
 use lightwell::methods::Settings;
 use lightwell::scene::{Finding, FindingKind, Severity};
 use lightwell::solution::{Closure, Counters, Energy, Solution};
-use lightwell::worker::Phase;
+use lightwell::worker::{Curve, Phase};
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::Duration;
 
 /// What a model borrows, and the wishes that came of it.
@@ -24,6 +26,9 @@ pub struct Stage {
     pub error: Option<String>,
     pub look: Look,
     pub theme: Theme,
+    pub lower: Option<LowerPanel>,
+    pub chart: Chart,
+    pub curves: Vec<Arc<Curve>>,
     pub notices: Vec<Notice>,
     pub dialog: Option<Dialog>,
     pub recent: Vec<PathBuf>,
@@ -42,6 +47,9 @@ impl Default for Stage {
             error: None,
             look: Look::default(),
             theme: Theme::Dark,
+            lower: None,
+            chart: Chart::default(),
+            curves: Vec::new(),
             notices: Vec::new(),
             dialog: None,
             recent: vec![PathBuf::from("/scenes/attic.obj")],
@@ -75,6 +83,9 @@ impl Stage {
             viewport_size: [952, 646],
             exposure_ev: 1.3,
             theme: self.theme,
+            lower: self.lower,
+            chart: self.chart,
+            curves: &self.curves,
             recent: &self.recent,
             notices: &self.notices,
             dialog: self.dialog.as_ref(),

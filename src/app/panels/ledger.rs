@@ -89,7 +89,7 @@ fn bar(ui: &mut Ui, entries: &[Entry], emitted: f64) {
         painter.rect_filled(part, corners, entry.color);
         left = right;
     }
-    if lent > 0.0 {
+    if lent > CLOSES {
         let emitted = rect.left() + emitted_width;
         painter.vline(emitted, rect.y_range(), Stroke::new(2.0, ui.visuals().strong_text_color()));
     }

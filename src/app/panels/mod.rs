@@ -1,11 +1,13 @@
 //! The panels: each a function from what is on show to what the person wants. None of them changes anything itself.
 
 mod banner;
+mod chart;
 mod dialogs;
 mod exposure;
 mod findings;
 mod icons;
 mod ledger;
+mod lower;
 mod menu_bar;
 mod notices;
 mod settings;
@@ -35,6 +37,7 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>, paint: impl F
         .show(ui, |ui| side_panel(ui, model, actions));
     CentralPanel::no_frame().show(ui, |ui| {
         Panel::top("view bar").frame(bar_frame(ui, 6)).show(ui, |ui| view_bar::show(ui, model, actions));
+        lower::show(ui, model, actions);
         for banner in banner::all(model) {
             let panel = Panel::top(("banner", banner.message)).frame(bar_frame(ui, 8));
             panel.show(ui, |ui| banner::show(ui, &banner, actions));

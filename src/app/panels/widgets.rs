@@ -71,11 +71,15 @@ const VALUE_WIDTH: f32 = 18.0 * UNIT;
 
 /// A row of a form in which one of a few is chosen; returns another one if it was.
 pub fn choice<C: Choice>(ui: &mut Ui, label: &str, hover: &str, chosen: C) -> Option<C> {
-    row(ui, label, hover, |ui, label| combo(ui, label, ui.available_width() - UNIT, chosen))
+    row(ui, label, hover, |ui, label| {
+        let (picked, response) = combo(ui, ui.available_width() - UNIT, chosen);
+        response.labelled_by(label.id);
+        picked
+    })
 }
 
 /// A box that drops down to show all of a few; returns another one if it was chosen.
-pub fn combo<C: Choice>(ui: &mut Ui, label: &Response, width: f32, chosen: C) -> Option<C> {
+pub fn combo<C: Choice>(ui: &mut Ui, width: f32, chosen: C) -> (Option<C>, Response) {
     let mut picked = None;
     let combo = ComboBox::from_id_salt(C::KIND).width(width).selected_text(chosen.label());
     let shown = combo.show_ui(ui, |ui| {
@@ -85,8 +89,7 @@ pub fn combo<C: Choice>(ui: &mut Ui, label: &Response, width: f32, chosen: C) ->
             }
         }
     });
-    shown.response.labelled_by(label.id).on_hover_text(chosen.meaning());
-    picked
+    (picked, shown.response.on_hover_text(chosen.meaning()))
 }
 
 /// A row of a table of figures: a name at the left, a value at the right.
