@@ -108,7 +108,7 @@ impl Choice for Rest {
     fn label(self) -> &'static str {
         match self {
             Self::Unshot => "Unshot share",
-            Self::Missing => "Light still missing, estimated",
+            Self::Missing => "Missing light, estimated",
         }
     }
 

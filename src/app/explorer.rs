@@ -6,6 +6,7 @@ use super::frame_clock::FrameClock;
 use super::model::{Dialog, Look, Model, PathPurpose, PictureRequest, SceneFacts, extension};
 use super::notices::Notices;
 use super::panels;
+use super::patch::PatchFacts;
 use super::pictures::{Destination, Job, Pictures};
 use super::preferences::Preferences;
 use super::theme;
@@ -139,6 +140,7 @@ impl Explorer {
             theme: self.preferences.theme,
             lower: self.preferences.lower,
             chart: self.preferences.chart,
+            patch: PatchFacts::of(&self.snapshot),
             curves: &self.snapshot.curves,
             recent: &self.preferences.recent,
             notices: self.notices.shown(),
@@ -160,6 +162,7 @@ impl Explorer {
             Action::EditSettings(settings) => self.edited = Some(settings),
             Action::ApplySettings(settings) => self.configure(settings),
             Action::Camera(movement) => self.pane.move_camera(movement),
+            Action::Pick(at) => self.worker.send(Command::Pick(self.pane.patch_at(at))),
             Action::SavePictureNow => {
                 let request = PictureRequest { size: self.pane.size(), samples: 16, format: Format::Png };
                 self.save_picture(request, Destination::Free(request.format));

@@ -1,5 +1,6 @@
 //! Numbers as people read them: SI prefixes, thin spaces, and as many digits as the value deserves.
 
+use crate::math::rgb::Rgb;
 use std::time::Duration;
 
 /// U+2009, between a number and its unit and between groups of three digits.
@@ -27,6 +28,39 @@ pub fn si(value: f64, unit: &str) -> String {
     let scaled = mantissa * 10_f64.powi(digits_before_point);
     let decimals = (2 - digits_before_point) as usize;
     format!("{}{THIN_SPACE}{prefix}{unit}", minus(&format!("{scaled:.decimals$}")))
+}
+
+/// An area: three significant digits, or a power of ten where those would need more than two zeros. Prefixes would have
+/// to be squared.
+pub fn area(square_metres: f64) -> String {
+    let number = match square_metres {
+        0.0 => "0".to_owned(),
+        value if !(1e-3..1e6).contains(&value) => scientific(value),
+        value => digits(value, value),
+    };
+    format!("{number}{THIN_SPACE}m²")
+}
+
+/// Three channels in one unit, with the digits that the largest deserves: `0.725 0.710 0.680`, `12.4 9.1 0.1 W/m²`.
+pub fn rgb(value: Rgb, unit: &str) -> String {
+    let largest = f64::from(value.abs().max_element());
+    let numbers = match largest {
+        _ if !value.is_finite() => NO_VALUE.to_owned(),
+        0.0 => "0".to_owned(),
+        _ => {
+            let is_plain = (1e-3..1e6).contains(&largest);
+            let number = |value: f64| if is_plain { digits(value, largest) } else { scientific(value) };
+            value.to_array().map(|channel| number(channel.into())).join(" ")
+        }
+    };
+    if unit.is_empty() { numbers } else { format!("{numbers}{THIN_SPACE}{unit}") }
+}
+
+/// A number with as many decimals as give `largest` three significant digits.
+fn digits(value: f64, largest: f64) -> String {
+    let (_, exponent) = mantissa_and_exponent(largest);
+    let decimals = (2 - exponent).max(0) as usize;
+    minus(&format!("{value:.decimals$}"))
 }
 
 /// An SI prefix and as few digits as it takes, for the axis of a chart: `0`, `200`, `1.5 k`, `20 M`, `400 ms`.
@@ -170,6 +204,18 @@ mod tests {
         {
             assert_eq!(shown(short(value, unit)), expected);
         }
+    }
+
+    #[test]
+    fn channels_share_their_digits() {
+        assert_eq!(shown(rgb(Rgb::new(0.725, 0.71, 0.68), "")), "0.725 0.710 0.680");
+        assert_eq!(shown(rgb(Rgb::new(12.36, 9.1, -0.05), "W/m²")), "12.4 9.1 −0.1_W/m²");
+        assert_eq!(shown(rgb(Rgb::new(2e-7, 0.0, 1e-7), "W/m²")), "2.0e−7 0 1.0e−7_W/m²");
+        assert_eq!(shown(rgb(Rgb::ZERO, "W/m²")), "0_W/m²");
+        assert_eq!(rgb(Rgb::NAN, ""), NO_VALUE);
+        assert_eq!(shown(area(0.01234)), "0.0123_m²");
+        assert_eq!(shown(area(1e-9)), "1.0e−9_m²");
+        assert_eq!(shown(area(1234.0)), "1234_m²");
     }
 
     #[test]

@@ -40,6 +40,7 @@ pub const SMOOTH: KeyboardShortcut = key(Key::Num2);
 pub const UNSHOT: KeyboardShortcut = key(Key::Num3);
 pub const WIREFRAME: KeyboardShortcut = key(Key::W);
 pub const SHOOTER: KeyboardShortcut = key(Key::O);
+pub const UNPICK: KeyboardShortcut = key(Key::Escape);
 pub const CONVERGENCE: KeyboardShortcut = key(Key::C);
 pub const FIT: KeyboardShortcut = key(Key::F);
 pub const HOME: KeyboardShortcut = key(Key::H);
@@ -49,7 +50,7 @@ pub const QUIT: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key
 pub const HELP: KeyboardShortcut = key(Key::F1);
 
 /// Every key of the window, in the order of its help.
-pub const BINDINGS: [Binding; 17] = [
+pub const BINDINGS: [Binding; 18] = [
     Binding::new(RUN, "Run or pause", |model| model.can_run().then(|| run_or_pause(model))),
     Binding::new(STEP_1, "One step: a shot or a sweep", |model| step(model, 1)).repeating(),
     Binding::new(STEP_10, "Ten steps", |model| step(model, 10)),
@@ -66,6 +67,7 @@ pub const BINDINGS: [Binding; 17] = [
     Binding::new(SHOOTER, "Show or hide the outline of the shooter", |model| {
         Some(Action::SetLook(Look { show_shooter: !model.look.show_shooter, ..model.look }))
     }),
+    Binding::new(UNPICK, "Forget the picked patch", |model| model.patch.map(|_| Action::Send(Command::Pick(None)))),
     Binding::new(CONVERGENCE, "Open or close the convergence chart", |model| lower(model, LowerPanel::Convergence)),
     Binding::new(FIT, "Fit the scene into the view", |model| camera(model, CameraMove::Fit)),
     Binding::new(HOME, "Back to the first view of the scene", |model| camera(model, CameraMove::Home)),

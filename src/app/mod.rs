@@ -13,6 +13,8 @@ pub mod keys;
 pub mod model;
 mod notices;
 pub mod panels;
+pub mod patch;
+mod picking;
 mod pictures;
 mod preferences;
 pub mod theme;

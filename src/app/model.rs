@@ -1,6 +1,7 @@
 //! What the panels show. They read a [`Model`] and return [`super::action::Action`]s; nothing here can be changed by them.
 
 use super::chart::Chart;
+use super::patch::PatchFacts;
 use crate::choice::Choice;
 use crate::cli::picture::Format;
 use crate::math::rgb::Rgb64;
@@ -34,6 +35,8 @@ pub struct Model<'a> {
     /// What is open below the viewport.
     pub lower: Option<LowerPanel>,
     pub chart: Chart,
+    /// The picked patch, if one is.
+    pub patch: Option<PatchFacts<'a>>,
     /// How the runs on this scene went, the one under way last.
     pub curves: &'a [Arc<Curve>],
     /// Scene files that were opened before, newest first.

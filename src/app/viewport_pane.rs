@@ -2,6 +2,7 @@
 
 use super::action::CameraMove;
 use super::model::Look;
+use super::picking::patch_at;
 use crate::camera::{Camera, Flight};
 use crate::solution::Solution;
 use crate::viewport::{Frame, Gpu, Viewport, automatic_exposure};
@@ -86,14 +87,20 @@ impl ViewportPane {
         }
     }
 
+    /// Width / height.
+    fn aspect(&self) -> f32 {
+        self.size[0] as f32 / self.size[1] as f32
+    }
+
     pub fn move_camera(&mut self, movement: CameraMove) {
+        let aspect = self.aspect();
         let (Some(camera), Some(world)) = (&mut self.camera, &self.world) else { return };
         let mut target = *camera;
         match movement {
             CameraMove::Orbit(drag) => camera.orbit(drag.x, drag.y),
             CameraMove::Pan(drag) => camera.pan(drag.x, drag.y),
             CameraMove::Zoom(factor) => camera.zoom(factor),
-            CameraMove::Fit => target.fit(&world.bounds, self.size[0] as f32 / self.size[1] as f32),
+            CameraMove::Fit => target.fit(&world.bounds, aspect),
             CameraMove::Home => target = Camera::new(&world.viewpoint, &world.bounds),
         }
         let flies = matches!(movement, CameraMove::Fit | CameraMove::Home);
@@ -122,6 +129,12 @@ impl ViewportPane {
             exposure_ev: self.exposure_ev(look),
             tone: look.tone,
         })
+    }
+
+    /// The patch that is seen at a point, in shares of the picture's width and height from the top left.
+    pub fn patch_at(&self, at: Vec2) -> Option<u32> {
+        let (world, camera) = (self.world.as_ref()?, self.camera.as_ref()?);
+        patch_at(world, camera, self.aspect(), at)
     }
 
     /// The world and the light on show.

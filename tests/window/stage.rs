@@ -6,6 +6,7 @@ use egui_kittest::kittest::NodeT;
 use lightwell::app::action::Action;
 use lightwell::app::chart::Chart;
 use lightwell::app::model::{Dialog, FrameTime, Look, LowerPanel, Model, Notice, SceneFacts, Theme};
+use lightwell::app::patch::PatchFacts;
 use lightwell::app::{panels, theme};
 use lightwell::math::rgb::Rgb64;
 use lightwell::methods::Settings;
@@ -28,6 +29,7 @@ pub struct Stage {
     pub theme: Theme,
     pub lower: Option<LowerPanel>,
     pub chart: Chart,
+    pub patch: Option<PatchFacts<'static>>,
     pub curves: Vec<Arc<Curve>>,
     pub notices: Vec<Notice>,
     pub dialog: Option<Dialog>,
@@ -49,6 +51,7 @@ impl Default for Stage {
             theme: Theme::Dark,
             lower: None,
             chart: Chart::default(),
+            patch: None,
             curves: Vec::new(),
             notices: Vec::new(),
             dialog: None,
@@ -85,6 +88,7 @@ impl Stage {
             theme: self.theme,
             lower: self.lower,
             chart: self.chart,
+            patch: self.patch,
             curves: &self.curves,
             recent: &self.recent,
             notices: &self.notices,

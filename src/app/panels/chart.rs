@@ -12,32 +12,31 @@ use egui::{Color32, RichText, ScrollArea, Ui, vec2};
 use egui_plot::{GridInput, GridMark, HLine, HoverPosition, Line, LineStyle, Plot, PlotPoint, PlotPoints};
 use std::sync::Arc;
 
+/// Room below the stop limit, in powers of ten.
+const BELOW_LIMIT: f64 = 0.2;
 /// Width of the legend.
 const LEGEND_WIDTH: f32 = 52.0 * UNIT;
 
-pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
-    axes(ui, model.chart, actions);
+pub fn show(ui: &mut Ui, model: &Model) {
     let descriptions = descriptions(model.curves);
     let height = ui.available_height();
     ui.horizontal_top(|ui| {
         plot(ui, model, &descriptions, vec2(ui.available_width() - LEGEND_WIDTH - 3.0 * UNIT, height));
-        ui.allocate_ui(vec2(LEGEND_WIDTH, height), |ui| legend(ui, model, &descriptions));
+        ui.vertical(|ui| legend(ui, model, &descriptions));
     });
 }
 
-/// What is drawn over what.
-fn axes(ui: &mut Ui, chart: Chart, actions: &mut Vec<Action>) {
-    ui.horizontal(|ui| {
-        let (rest, response) = combo(ui, 56.0 * UNIT, chart.rest);
-        response.accessible_name("What is left");
-        ui.label("over");
-        let (work, response) = combo(ui, 36.0 * UNIT, chart.work);
-        response.accessible_name("Work");
-        let chosen = Chart { rest: rest.unwrap_or(chart.rest), work: work.unwrap_or(chart.work) };
-        if chosen != chart {
-            actions.push(Action::SetChart(chosen));
-        }
-    });
+/// What is drawn over what, to be chosen in a row.
+pub fn axes(ui: &mut Ui, chart: Chart, actions: &mut Vec<Action>) {
+    let (rest, response) = combo(ui, 48.0 * UNIT, chart.rest);
+    response.accessible_name("What is left");
+    ui.label("over");
+    let (work, response) = combo(ui, 34.0 * UNIT, chart.work);
+    response.accessible_name("Work");
+    let chosen = Chart { rest: rest.unwrap_or(chart.rest), work: work.unwrap_or(chart.work) };
+    if chosen != chart {
+        actions.push(Action::SetChart(chosen));
+    }
 }
 
 fn plot(ui: &mut Ui, model: &Model, descriptions: &[String], size: egui::Vec2) {
@@ -50,9 +49,10 @@ fn plot(ui: &mut Ui, model: &Model, descriptions: &[String], size: egui::Vec2) {
         .width(size.x)
         .height(size.y)
         .show_background(false)
+        .grid_color(ui.visuals().weak_text_color().gamma_multiply(0.6))
         .include_x(0.0)
         .include_y(0.0)
-        .include_y(limit)
+        .include_y(limit - BELOW_LIMIT)
         .allow_scroll(false)
         .y_axis_min_width(12.0 * UNIT)
         .y_grid_spacer(decades)

@@ -136,6 +136,7 @@ fn keys(ui: &mut Ui, actions: &mut Vec<Action>) {
         ("Drag", "Turn around the scene"),
         ("Shift+drag or right drag", "Move sideways"),
         ("Wheel", "Move closer or away"),
+        ("Click", "Pick a patch; beside the scene, forget it"),
         ("Double click", "Fit the scene into the view"),
     ];
     table(ui, "mouse", mouse.map(|(gesture, purpose)| (gesture.to_owned(), purpose)));

@@ -24,9 +24,15 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     let most = (ui.available_height() - LEAST_VIEWPORT).max(LEAST_HEIGHT);
     let panel = Panel::bottom("lower panel").frame(frame).resizable(true).default_size(DEFAULT_HEIGHT);
     panel.size_range(LEAST_HEIGHT..=most).show(ui, |ui| {
-        tabs(ui, model, actions);
+        ui.horizontal(|ui| {
+            tabs(ui, model, actions);
+            ui.add_space(2.0 * UNIT);
+            match open {
+                LowerPanel::Convergence => chart::axes(ui, model.chart, actions),
+            }
+        });
         match open {
-            LowerPanel::Convergence => chart::show(ui, model, actions),
+            LowerPanel::Convergence => chart::show(ui, model),
         }
     });
 }
@@ -37,7 +43,7 @@ fn tabs(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
         for &panel in LowerPanel::ALL {
             let is_open = model.lower == Some(panel);
             let hover = with_key(ui, panel.meaning(), Some(&keys::of_lower_panel(panel)));
-            let tab = Button::new(panel.label()).selected(is_open).frame_when_inactive(false);
+            let tab = Button::new(panel.label()).selected(is_open).frame_when_inactive(is_open);
             if ui.add(tab).on_hover_text(hover).clicked() {
                 actions.push(Action::ShowLowerPanel((!is_open).then_some(panel)));
             }

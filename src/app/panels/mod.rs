@@ -10,6 +10,7 @@ mod ledger;
 mod lower;
 mod menu_bar;
 mod notices;
+mod patch;
 mod settings;
 mod status_line;
 mod transport;
@@ -61,6 +62,7 @@ fn side_panel(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
         Frame::new().inner_margin(Margin::symmetric(16, 12)).show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = UNIT;
             widgets::section(ui, "Energy", |ui| ledger::show(ui, model));
+            patch::show(ui, model, actions);
             widgets::section(ui, "Exposure", |ui| exposure::show(ui, model, actions));
             widgets::section(ui, "Settings", |ui| settings::show(ui, model, actions));
             findings::show(ui, model);

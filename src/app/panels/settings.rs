@@ -118,7 +118,7 @@ fn patch_edge(ui: &mut Ui, mut settings: Settings, actions: &mut Vec<Action>) {
         is_chosen: edge == *elements,
     });
     let hover = "How many elements, which receive light, lie along the edge of a patch, which shoots it";
-    if let Some(chosen) = row(ui, "Elements a patch", hover, |ui, _| segmented(ui, 10.0 * UNIT, &segments)) {
+    if let Some(chosen) = row(ui, "Patch edge", hover, |ui, _| segmented(ui, 10.0 * UNIT, &segments)) {
         *elements = PATCH_EDGES[chosen].0;
         actions.push(Action::ApplySettings(settings));
     }
