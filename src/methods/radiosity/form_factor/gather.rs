@@ -1,12 +1,12 @@
 //! Form factors from all elements to one shooter, on all cores.
 
-use super::form_factor::Shooter;
+use super::polygon::{Kernel, Shooter};
 use super::visibility::Sightline;
-use crate::cancel::Cancel;
+use super::{Shot, clamped, plane_tolerance};
 use crate::math::random::hash;
 use crate::mesh::Mesh;
-use crate::world::World;
-use std::ops::{AddAssign, Range};
+use crate::solution::Counters;
+use std::ops::Range;
 
 /// A batch holds about this many elements: some milliseconds of work at most, after which the cancel flag is looked at.
 const BATCH: u32 = 128;
@@ -21,28 +21,12 @@ struct Batch {
     elements: Range<u32>,
 }
 
-/// Work done in a pass over the receivers.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Work {
-    pub form_factors: u64,
-    pub rays: u64,
-}
-
-impl AddAssign for Work {
-    fn add_assign(&mut self, other: Self) {
-        self.form_factors += other.form_factors;
-        self.rays += other.rays;
-    }
-}
-
-/// One shot, as all receivers see it.
-pub struct Shot<'a> {
-    pub world: &'a World,
+/// A shot as all receivers see it.
+pub struct Sight<'a> {
+    pub shot: &'a Shot<'a>,
+    pub kernel: Kernel,
     pub shooter: Shooter,
     pub sightline: Sightline<'a>,
-    pub seed: u64,
-    pub step: u64,
-    pub cancel: &'a Cancel,
 }
 
 impl Receivers {
@@ -62,61 +46,58 @@ impl Receivers {
     }
 
     /// Fills `form_factors`, one an element, with F · visibility. If cancelled, some keep their old values.
-    pub fn gather(&self, shot: &Shot, form_factors: &mut [f64]) -> Work {
-        gather(&self.batches, shot, form_factors)
+    pub fn gather(&self, sight: &Sight, form_factors: &mut [f64]) -> Counters {
+        gather(&self.batches, sight, form_factors)
     }
 }
 
-/// Σ A_e F_e, m², in one fixed order.
-pub fn row_sum(mesh: &Mesh, form_factors: &[f64]) -> f64 {
-    mesh.elements.iter().zip(form_factors).map(|(element, form_factor)| element.area * form_factor).sum()
-}
-
 /// Halves the batches until one is left, so that every core has work and nothing is allocated.
-fn gather(batches: &[Batch], shot: &Shot, form_factors: &mut [f64]) -> Work {
+fn gather(batches: &[Batch], sight: &Sight, form_factors: &mut [f64]) -> Counters {
     match batches {
-        [] => Work::default(),
-        [batch] => gather_batch(batch, shot, form_factors),
+        [] => Counters::default(),
+        [batch] => gather_batch(batch, sight, form_factors),
         _ => {
             let (low, high) = batches.split_at(batches.len() / 2);
             let split = (high[0].elements.start - low[0].elements.start) as usize;
             let (low_out, high_out) = form_factors.split_at_mut(split);
-            let (mut work, more) = rayon::join(|| gather(low, shot, low_out), || gather(high, shot, high_out));
+            let (mut work, more) = rayon::join(|| gather(low, sight, low_out), || gather(high, sight, high_out));
             work += more;
             work
         }
     }
 }
 
-fn gather_batch(batch: &Batch, shot: &Shot, form_factors: &mut [f64]) -> Work {
-    let mut work = Work::default();
+fn gather_batch(batch: &Batch, sight: &Sight, form_factors: &mut [f64]) -> Counters {
+    let mut work = Counters::default();
+    let Sight { shot, kernel, shooter, sightline } = sight;
     if shot.cancel.is_requested() {
         return work;
     }
-    // Twice as far as a lifted point: nearer planes are one plane.
-    let tolerance = 2.0 * shot.world.tracer.offset();
+    let tolerance = plane_tolerance(shot.world);
     let first = batch.elements.start;
     let mesh = &shot.world.mesh;
     for patch in &mesh.patches[batch.patches.start as usize..batch.patches.end as usize] {
         let elements = patch.elements.start as usize..patch.elements.end as usize;
         let out = &mut form_factors[elements.start - first as usize..elements.end - first as usize];
-        if !shot.shooter.may_reach(patch, tolerance) {
+        if shooter.out_of_sight(patch, tolerance).is_some() {
             out.fill(0.0);
             continue;
         }
         let normal = patch.normal.as_dvec3();
         for (index, out) in elements.zip(out) {
             let element = &mesh.elements[index];
+            *out = 0.0;
             if element.exposed == 0.0 {
-                *out = 0.0;
                 continue;
             }
-            *out = shot.shooter.form_factor(mesh, element, normal);
+            let (form_factor, is_cut) = clamped(shooter.form_factor(*kernel, mesh, element, normal));
             work.form_factors += 1;
-            if *out > 0.0 {
-                let shift = hash(shot.seed, shot.step, index as u64);
-                let (visible, rays) = shot.sightline.visible_share(element, patch.normal, *out, shift);
-                *out *= visible;
+            work.clamped += u64::from(is_cut);
+            if form_factor > 0.0 {
+                let shift = hash(shot.seed, shot.pass, index as u64);
+                let (visible, rays) = sightline.visible_share(element, patch.normal, form_factor, shift);
+                *out = form_factor * visible;
+                work.shadow_rays += u64::from(rays);
                 work.rays += u64::from(rays);
             }
         }
