@@ -1,5 +1,7 @@
 //! Form factor from a receiving element to a shooting patch in closed form, without regard to what stands between.
 
+pub mod hemicube;
+
 use crate::math::polygon::form_factor;
 use crate::mesh::{Element, Mesh, Patch};
 use glam::{DVec3, Vec2, Vec3A};

@@ -3,7 +3,7 @@
 //! Cohen, Slusallek 1993).
 
 mod escape;
-mod form_factor;
+pub mod form_factor;
 mod gather;
 mod ledger;
 mod sensor;
