@@ -1,9 +1,9 @@
 //! What one patch sees.
 
-use super::form_factor::{FormFactors, Shot};
+use super::form_factor::{FormFactors, Hemicubes, Shot};
 use crate::cancel::Cancel;
 use crate::methods::Settings;
-use crate::solution::{ItemBuffer, Picked};
+use crate::solution::Picked;
 use crate::world::World;
 use std::sync::Arc;
 
@@ -32,6 +32,6 @@ pub fn pick(world: &World, settings: &Settings, patch: u32) -> Picked {
         patch,
         form_factors: mesh.patches.iter().map(of).collect(),
         escaping: outcome.escaping,
-        item_buffer: Arc::new(ItemBuffer { resolution: 0, faces: Default::default() }),
+        item_buffer: Arc::new(Hemicubes::new(mesh, settings).item_buffer(world, shooter)),
     }
 }
