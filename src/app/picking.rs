@@ -60,7 +60,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_drawn_at_a_corner_of_a_patch_is_one_of_the_patches_there() {
+    fn the_middle_of_a_patch_in_sight_picks_that_patch() {
         let world = furnace();
         let camera = Camera::new(&world.viewpoint, &world.bounds);
         let aspect = 1.25;
