@@ -3,7 +3,7 @@
 use lightwell::cancel::Cancel;
 use lightwell::math::rgb::{Rgb, total};
 use lightwell::mesh::MeshSettings;
-use lightwell::methods::radiosity::Radiosity;
+use lightwell::methods::radiosity::Progressive;
 use lightwell::methods::{Method, Settings, Step};
 use lightwell::scene::Scene;
 use lightwell::solution::{Energy, Solution};
@@ -31,7 +31,7 @@ fn furnace(reflectance: f32, element_size: f32) -> Arc<World> {
 }
 
 fn solve(world: &Arc<World>, settings: Settings) -> Solution {
-    let mut method = Radiosity::new(world.clone(), settings);
+    let mut method = Progressive::new(world.clone(), settings);
     while method.step(&Cancel::default()) == Step::Advanced {}
     method.solution()
 }
@@ -66,7 +66,7 @@ fn a_furnace_glows_evenly_on_every_element() {
 fn the_ledger_closes_after_every_shot() {
     for name in ["cornell-box", "furnace", "two-rooms", "empty-box", "gallery"] {
         let world = world(name, None);
-        let mut method = Radiosity::new(world, Settings { shadow_rays: 8, ..Settings::default() });
+        let mut method = Progressive::new(world, Settings { shadow_rays: 8, ..Settings::default() });
         let mut unshot = f64::INFINITY;
         for _ in 0..60 {
             if method.step(&Cancel::default()) != Step::Advanced {
@@ -85,7 +85,7 @@ fn a_shot_in_a_closed_room_of_one_reflectance_takes_its_absorbed_share() {
     // Whatever the form factors are, a shot of flux Φ leaves ρ Φ to be shot (facts of a closed room of one ρ).
     let reflectance = 0.5;
     let world = furnace(reflectance, 0.1);
-    let mut method = Radiosity::new(world.clone(), Settings::default());
+    let mut method = Progressive::new(world.clone(), Settings::default());
     for _ in 0..200 {
         let before = method.solution();
         assert_eq!(method.step(&Cancel::default()), Step::Advanced);
@@ -102,7 +102,7 @@ fn a_shot_in_a_closed_room_of_one_reflectance_takes_its_absorbed_share() {
 #[test]
 fn the_patch_with_the_most_unshot_flux_shoots() {
     let world = world("cornell-box", None);
-    let mut method = Radiosity::new(world.clone(), Settings::default());
+    let mut method = Progressive::new(world.clone(), Settings::default());
     for _ in 0..50 {
         let before = method.solution();
         method.step(&Cancel::default());
@@ -121,7 +121,7 @@ fn one_thread_and_two_give_the_same_bits() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
         pool.install(|| {
             let world = world("cornell-box", Some(0.04));
-            let mut method = Radiosity::new(world, Settings { seed: 7, ..Settings::default() });
+            let mut method = Progressive::new(world, Settings { seed: 7, ..Settings::default() });
             for _ in 0..200 {
                 method.step(&Cancel::default());
             }
@@ -152,8 +152,8 @@ fn another_seed_gives_other_noise_and_the_same_light() {
 #[test]
 fn a_cancelled_shot_changes_nothing() {
     let world = world("cornell-box", Some(0.04));
-    let mut interrupted = Radiosity::new(world.clone(), Settings::default());
-    let mut straight = Radiosity::new(world, Settings::default());
+    let mut interrupted = Progressive::new(world.clone(), Settings::default());
+    let mut straight = Progressive::new(world, Settings::default());
     let stop = Cancel::default();
     stop.request();
     for _ in 0..20 {
@@ -170,7 +170,7 @@ fn a_scene_without_light_has_converged_before_the_first_shot() {
     for material in &mut scene.materials {
         material.emission = Rgb::ZERO;
     }
-    let mut method = Radiosity::new(world_of(scene, None), Settings::default());
+    let mut method = Progressive::new(world_of(scene, None), Settings::default());
     assert_eq!(method.step(&Cancel::default()), Step::Converged);
     let solution = method.solution();
     assert!(solution.converged && solution.light.radiosity.iter().all(|radiosity| *radiosity == Rgb::ZERO));
