@@ -4,10 +4,13 @@
 
 use lightwell::camera::Camera;
 use lightwell::cancel::Cancel;
+use lightwell::choice::Choice;
 use lightwell::mesh::MeshSettings;
 use lightwell::methods::Settings;
 use lightwell::scene::Scene;
-use lightwell::viewport::{AdapterChoice, Frame, Gpu, Picture, ToneCurve, View, automatic_exposure, render_picture};
+use lightwell::viewport::{
+    AdapterChoice, Frame, Gpu, Light, Picture, ToneCurve, View, automatic_exposure, render_picture,
+};
 use lightwell::worker::Run;
 use lightwell::world::World;
 use std::path::{Path, PathBuf};
@@ -41,13 +44,15 @@ fn compare(gpu: &Gpu, scene: &str, view: View, wireframe: bool, shots: u64) {
         camera: Camera::new(&world.viewpoint, &world.bounds),
         size: [160, 120],
         view,
+        bounce: 0,
+        ambient: false,
         wireframe,
         show_shooter: wireframe,
         exposure_ev: automatic_exposure(&world, &solution),
         tone: ToneCurve::Linear,
     };
-    let picture = render_picture(gpu, &world, &solution, &frame, 16).expect("a picture");
-    let path = reference(&format!("{scene}-{view}"));
+    let picture = render_picture(gpu, &world, &Light::from(solution), &frame, 16).expect("a picture");
+    let path = reference(&format!("{scene}-{}", view.name()));
     if std::env::var_os("UPDATE_SCREENSHOTS").is_some() {
         let pixels = picture.srgb.as_flattened();
         image::save_buffer(&path, pixels, 160, 120, image::ColorType::Rgba8).expect("the picture is written");

@@ -14,6 +14,7 @@ use super::viewport_pane::ViewportPane;
 use crate::cli::picture::{self, Format};
 use crate::methods::Settings;
 use crate::scene::Source;
+use crate::viewport::Legend;
 use crate::worker::{Command, Snapshot, Worker};
 use egui::{Ui, ViewportCommand};
 use std::path::PathBuf;
@@ -128,6 +129,7 @@ impl Explorer {
     fn show(&mut self, ui: &mut Ui) -> Vec<Action> {
         let mut actions = Vec::new();
         let error = self.snapshot.error.as_deref().filter(|_| !self.is_error_dismissed);
+        let picked = self.snapshot.picked.as_deref();
         let model = Model {
             phase: &self.snapshot.phase,
             scene: SceneFacts::of(&self.snapshot),
@@ -140,6 +142,8 @@ impl Explorer {
             theme: self.preferences.theme,
             lower: self.preferences.lower,
             chart: self.preferences.chart,
+            missing: self.snapshot.solution.as_deref().and_then(|solution| self.look.view.missing(solution, picked)),
+            legend: self.pane.shown().and_then(|(_, light)| Legend::of(self.look.view, light)),
             patch: PatchFacts::of(&self.snapshot),
             curves: &self.snapshot.curves,
             recent: &self.preferences.recent,
@@ -208,14 +212,13 @@ impl Explorer {
     }
 
     fn save_picture(&mut self, request: PictureRequest, destination: Destination) {
-        let (Some((world, solution)), Some(frame)) = (self.pane.shown(), self.pane.frame(&self.look, request.size))
-        else {
+        let (Some((world, light)), Some(frame)) = (self.pane.shown(), self.pane.frame(&self.look, request.size)) else {
             return;
         };
         let job = Job {
-            facts: picture::facts(world, solution, &self.snapshot.settings, &frame),
+            facts: picture::facts(world, &light.solution, &self.snapshot.settings, &frame),
             world: Arc::clone(world),
-            solution: Arc::clone(solution),
+            light: light.clone(),
             frame,
             samples: request.samples,
             destination,

@@ -8,7 +8,7 @@ use crate::math::rgb::Rgb64;
 use crate::methods::{Settings, Solver};
 use crate::scene::{Finding, FindingKind};
 use crate::solution::Solution;
-use crate::viewport::{Exposure, ToneCurve, View};
+use crate::viewport::{Exposure, Legend, ToneCurve, View};
 use crate::worker::{Curve, Phase, Snapshot};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -35,6 +35,10 @@ pub struct Model<'a> {
     /// What is open below the viewport.
     pub lower: Option<LowerPanel>,
     pub chart: Chart,
+    /// What the view needs and does not have.
+    pub missing: Option<&'static str>,
+    /// Which numbers the false colours of the view stand for.
+    pub legend: Option<Legend>,
     /// The picked patch, if one is.
     pub patch: Option<PatchFacts<'a>>,
     /// How the runs on this scene went, the one under way last.
@@ -71,6 +75,11 @@ impl Model<'_> {
     /// How much of the matrix is built, in [0, 1], while it is.
     pub fn preparation(&self) -> Option<f32> {
         self.solution.and_then(|solution| solution.preparation)
+    }
+
+    /// The most bounces of light that can be looked at.
+    pub fn last_bounce(&self) -> usize {
+        self.solution.map_or(0, |solution| solution.bounces.len().saturating_sub(1))
     }
 
     /// How far the light is between the emitters (0) and the stop limit (1), on a logarithmic scale: a solver takes
@@ -127,6 +136,10 @@ impl<'a> SceneFacts<'a> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Look {
     pub view: View,
+    /// How many bounces of light [`View::Bounces`] shows.
+    pub bounce: usize,
+    /// Adds what the unshot light will bring on average.
+    pub ambient: bool,
     pub wireframe: bool,
     /// Outlines the patch that shot last.
     pub show_shooter: bool,
@@ -138,6 +151,8 @@ impl Default for Look {
     fn default() -> Self {
         Self {
             view: View::Smooth,
+            bounce: 0,
+            ambient: false,
             wireframe: false,
             show_shooter: true,
             exposure: Exposure::Automatic,

@@ -1,6 +1,7 @@
 //! Pictures as files, with what is needed to make them again.
 
 use super::CliError;
+use crate::choice::Choice;
 use crate::methods::Settings;
 use crate::solution::Solution;
 use crate::viewport::{Frame, Picture};
@@ -36,12 +37,12 @@ pub fn facts(world: &World, solution: &Solution, settings: &Settings, frame: &Fr
     let facts = [
         ("Software", concat!("Lightwell ", env!("CARGO_PKG_VERSION")).to_owned()),
         ("Scene", world.scene.name.clone()),
-        ("View", frame.view.to_string()),
+        ("View", frame.view.name().to_owned()),
         ("Eye", viewpoint.eye.to_string()),
         ("Target", viewpoint.target.to_string()),
         ("Up", viewpoint.up.to_string()),
         ("Vertical field of view", format!("{} deg", viewpoint.vertical_fov)),
-        ("Exposure", format!("{} EV, {}", frame.exposure_ev, frame.tone)),
+        ("Exposure", format!("{} EV, {}", frame.exposure_ev, frame.tone.name())),
         ("Method", "progressive radiosity".to_owned()),
         ("Element size", format!("{} m", world.element_size)),
         ("Shadow rays", settings.shadow_rays.to_string()),

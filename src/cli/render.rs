@@ -4,8 +4,9 @@ use super::run_options::{RunOptions, Solved};
 use super::solve::report;
 use super::{CliError, picture, values};
 use crate::camera::Camera;
+use crate::choice::{self, Choice};
 use crate::scene::Viewpoint;
-use crate::viewport::{AdapterChoice, Exposure, Frame, Gpu, ToneCurve, View, render_picture};
+use crate::viewport::{AdapterChoice, Exposure, Frame, Gpu, Light, ToneCurve, View, render_picture};
 use crate::world::World;
 use glam::Vec3;
 use serde_json::json;
@@ -20,7 +21,7 @@ pub struct Options {
     #[arg(short, long, value_name = "FILE", value_parser = values::picture_path)]
     output: PathBuf,
     /// What to show: patches, smooth or unshot
-    #[arg(long, default_value_t)]
+    #[arg(long, default_value = View::default().name(), value_parser = choice::parse::<View>)]
     view: View,
     /// Outline the elements
     #[arg(long)]
@@ -47,7 +48,7 @@ pub struct Options {
     #[arg(long, value_name = "EV", allow_hyphen_values = true, value_parser = values::stops)]
     exposure: Option<f32>,
     /// From radiance to the screen: filmic or linear
-    #[arg(long, default_value_t)]
+    #[arg(long, default_value = ToneCurve::default().name(), value_parser = choice::parse::<ToneCurve>)]
     tone: ToneCurve,
     /// The graphics adapter: `system` for the best one, `software`, or a part of its name
     #[arg(long, value_name = "software|NAME", default_value = "system")]
@@ -67,19 +68,21 @@ pub fn run(options: &Options) -> Result<(), CliError> {
         camera: Camera::new(&options.viewpoint(world), &world.bounds),
         size: options.size,
         view: options.view,
+        bounce: 0,
+        ambient: false,
         wireframe: options.wireframe,
         show_shooter: false,
         exposure_ev: exposure.ev(world, solution),
         tone: options.tone,
     };
-    let picture = render_picture(&gpu, world, solution, &frame, options.samples)?;
+    let picture = render_picture(&gpu, world, &Light::from(solution.clone()), &frame, options.samples)?;
     picture::save(&options.output, &picture, &picture::facts(world, solution, settings, &frame))?;
     if options.json {
         let mut report = report(&solved);
         report["picture"] = json!({
             "file": options.output,
             "size": options.size,
-            "view": options.view.to_string(),
+            "view": options.view.name(),
             "exposure": frame.exposure_ev,
         });
         writeln!(std::io::stdout(), "{report}")?;

@@ -1,11 +1,10 @@
 //! From radiance to what a screen can show.
 
+use crate::choice::Choice;
 use crate::math::rgb::{Rgb64, luminance};
 use crate::solution::Solution;
 use crate::world::World;
 use std::f64::consts::PI;
-use std::fmt;
-use std::str::FromStr;
 
 /// How bright the picture is. An exposure of `ev` shows a radiance L [W/(m²·sr)] as 2^ev · L, where 1 is the white of a
 /// screen before its [`ToneCurve`].
@@ -38,40 +37,29 @@ pub enum ToneCurve {
     Filmic,
 }
 
-impl ToneCurve {
-    pub const ALL: [Self; 2] = [Self::Linear, Self::Filmic];
+impl Choice for ToneCurve {
+    const ALL: &'static [Self] = &[Self::Linear, Self::Filmic];
+    const KIND: &'static str = "tone curve";
 
-    /// For people.
-    pub fn label(self) -> &'static str {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Linear => "linear",
+            Self::Filmic => "filmic",
+        }
+    }
+
+    fn label(self) -> &'static str {
         match self {
             Self::Linear => "Linear",
             Self::Filmic => "Filmic",
         }
     }
 
-    /// For command lines and files.
-    pub fn name(self) -> &'static str {
+    fn meaning(self) -> &'static str {
         match self {
-            Self::Linear => "linear",
-            Self::Filmic => "filmic",
+            Self::Linear => "In proportion to radiance; what is brighter than white is cut off",
+            Self::Filmic => "Bright light fades to white as on film",
         }
-    }
-}
-
-impl fmt::Display for ToneCurve {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
-
-impl FromStr for ToneCurve {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let found = Self::ALL.into_iter().find(|curve| curve.name() == text);
-        found.ok_or_else(|| {
-            format!("no tone curve is called `{text}` (there are {})", Self::ALL.map(Self::name).join(", "))
-        })
     }
 }
 

@@ -12,6 +12,7 @@ use lightwell::math::rgb::Rgb64;
 use lightwell::methods::Settings;
 use lightwell::scene::{Finding, FindingKind, Severity};
 use lightwell::solution::{Closure, Counters, Energy, Solution};
+use lightwell::viewport::Legend;
 use lightwell::worker::{Curve, Phase};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -29,6 +30,8 @@ pub struct Stage {
     pub theme: Theme,
     pub lower: Option<LowerPanel>,
     pub chart: Chart,
+    pub missing: Option<&'static str>,
+    pub legend: Option<Legend>,
     pub patch: Option<PatchFacts<'static>>,
     pub curves: Vec<Arc<Curve>>,
     pub notices: Vec<Notice>,
@@ -51,6 +54,8 @@ impl Default for Stage {
             theme: Theme::Dark,
             lower: None,
             chart: Chart::default(),
+            missing: None,
+            legend: None,
             patch: None,
             curves: Vec::new(),
             notices: Vec::new(),
@@ -88,6 +93,8 @@ impl Stage {
             theme: self.theme,
             lower: self.lower,
             chart: self.chart,
+            missing: self.missing,
+            legend: self.legend.clone(),
             patch: self.patch,
             curves: &self.curves,
             recent: &self.recent,
@@ -135,7 +142,7 @@ pub fn solution() -> Solution {
         elapsed: Duration::from_millis(2_500),
         converged: false,
         energy: Energy { emitted: watts(10.0), absorbed: watts(6.0), unshot: watts(3.0), escaped: watts(1.0) },
-        closure: Closure { mean: 0.0123, worst: 0.07 },
+        closure: Closure { mean: 0.0123, worst: 0.07, reciprocity: 2e-6 },
         counters: Counters { rays: 31_000_000, ..Counters::default() },
         shooter: None,
         ..Solution::default()

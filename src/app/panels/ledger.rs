@@ -28,6 +28,7 @@ pub fn show(ui: &mut Ui, model: &Model) {
     ui.add_space(UNIT);
     defect(ui, &solution.energy, emitted);
     closure(ui, solution);
+    reciprocity(ui, solution.closure.reciprocity);
     troubles(ui, &solution.counters);
 }
 
@@ -144,6 +145,15 @@ fn closure(ui: &mut Ui, solution: &Solution) {
         "How far the form factors of a shot, with what escapes, were from adding up to 1 before they were scaled to do \
          so. Smaller elements and more shadow rays bring it down.",
     );
+}
+
+/// How far the two form factors of each pair were apart, where a solver compares them.
+fn reciprocity(ui: &mut Ui, reciprocity: f64) {
+    if reciprocity > 0.0 {
+        let hover = "Two patches exchange the same light both ways: A F one way is A F the other way. So far apart were \
+                     the two on average, as computed; the matrix has their mean.";
+        figure(ui, "Reciprocity", format::percent(reciprocity), hover);
+    }
 }
 
 /// What a method of form factors could not do, where that came up.

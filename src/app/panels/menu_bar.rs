@@ -52,7 +52,7 @@ fn file_menu(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
 
 fn view_menu(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     let look = model.look;
-    for view in View::ALL {
+    for &view in View::ALL {
         let chosen = || actions.push(Action::SetLook(Look { view, ..look }));
         choice(ui, view.label(), look.view == view, Some(&keys::of_view(view)), chosen);
     }
