@@ -9,7 +9,6 @@ pub use item_buffer::item_buffer;
 pub use matrix::{MatrixDiagram, Swatch, matrix};
 
 use crate::choice::Choice;
-use crate::solution::{Picked, Solution};
 
 /// Which diagram is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,14 +20,11 @@ pub enum Diagram {
 }
 
 impl Diagram {
-    /// What is missing for this diagram and how to get it; `None` where it can be drawn.
-    pub fn missing(self, solution: &Solution, picked: Option<&Picked>) -> Option<&'static str> {
+    /// What to do where there is nothing to draw it from.
+    pub fn remedy(self) -> &'static str {
         match self {
-            Self::Matrix if solution.matrix.is_none() => {
-                Some("Only the solvers Jacobi, Gauss-Seidel and Southwell keep a matrix: choose one and run")
-            }
-            Self::ItemBuffer if picked.is_none() => Some("Click a patch to see what its hemicube sees"),
-            _ => None,
+            Self::Matrix => "Only the solvers Jacobi, Gauss-Seidel and Southwell keep a matrix: choose one and run",
+            Self::ItemBuffer => "Click a patch to see what its hemicube sees",
         }
     }
 }
