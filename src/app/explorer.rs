@@ -216,7 +216,7 @@ impl Explorer {
             return;
         };
         let job = Job {
-            facts: picture::facts(world, &light.solution, &self.snapshot.settings, &frame),
+            facts: picture::facts(world, light, &self.snapshot.settings, &frame),
             world: Arc::clone(world),
             light: light.clone(),
             frame,

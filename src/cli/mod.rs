@@ -86,6 +86,14 @@ pub enum CliError {
     Encode { path: PathBuf, source: Box<dyn std::error::Error + Send + Sync> },
     #[error("{path} is neither .png nor .exr")]
     PictureFormat { path: PathBuf },
+    #[error("there is no patch {patch}: the scene has {patches}, counted from 0")]
+    NoSuchPatch { patch: u32, patches: usize },
+    #[error("no patch is seen at {},{}", .at[0], .at[1])]
+    NothingPicked { at: [f32; 2] },
+    #[error("only {kept} bounces of light were kept, and the light of the emitters")]
+    NoSuchBounce { kept: usize },
+    #[error("there is nothing to draw yet: {0}")]
+    Missing(&'static str),
     #[error("cannot print")]
     Print(#[from] std::io::Error),
 }

@@ -76,8 +76,8 @@ pub fn automatic_exposure(world: &World, solution: &Solution) -> f32 {
     if mean_radiance > 0.0 { (MID_GREY / mean_radiance).log2() as f32 } else { 0.0 }
 }
 
-/// The mean radiosity [W/m²] that elements without emission will have in the end: what they have now, and their share of
-/// the unshot flux, spread evenly over all surfaces with all its reflections to come.
+/// The mean radiosity [W/m²] that elements without emission will have in the end: what they have now, and what they will
+/// reflect of the ambient light.
 fn expected_radiosity(world: &World, solution: &Solution) -> Rgb64 {
     let mut dark = Surfaces::default();
     let mut bright = Surfaces::default();
@@ -99,10 +99,7 @@ fn expected_radiosity(world: &World, solution: &Solution) -> Rgb64 {
         return Rgb64::ZERO;
     }
     let seen = if dark.area > 0.0 { &dark } else { &all };
-    let reflectance = all.reflecting / all.area;
-    let kept = 1.0 - escaping_share(solution, reflectance);
-    let ambient = solution.energy.unshot * kept / (all.area * (1.0 - reflectance * kept));
-    (seen.flux + seen.reflecting * ambient) / seen.area
+    (seen.flux + seen.reflecting * solution.ambient.as_dvec3()) / seen.area
 }
 
 /// Sums over some surfaces.
@@ -114,11 +111,4 @@ struct Surfaces {
     reflecting: Rgb64,
     /// B A, W
     flux: Rgb64,
-}
-
-/// The share of shot flux that has left the scene so far: of what surfaces took in, ρ was handed on and 1 − ρ absorbed.
-fn escaping_share(solution: &Solution, reflectance: Rgb64) -> Rgb64 {
-    let arrived = solution.energy.absorbed / (1.0 - reflectance);
-    let escaped = solution.energy.escaped;
-    (escaped / (arrived + escaped).max(Rgb64::splat(f64::MIN_POSITIVE))).clamp(Rgb64::ZERO, Rgb64::ONE)
 }

@@ -1,15 +1,17 @@
 //! Draws a world and the light in it, in a window or into a file, by one path.
 //!
 //! A [`View`] says which value each element has. Elements are drawn into a target of radiance in half floats, which a
-//! second pass exposes, bends by a tone curve and encodes for the screen; false colours pass as they are. Only this module
-//! names wgpu: a window hands its device through [`Gpu::from_parts`].
+//! second pass exposes, bends by a tone curve and encodes for the screen; false colours pass as they are. Diagrams
+//! need no device. Only this module names wgpu: a window hands its device through [`Gpu::from_parts`].
 
 mod buffers;
 pub mod colour_map;
+pub mod diagram;
 mod exposure;
 mod gpu;
 pub mod gpu_types;
 mod legend;
+mod picking;
 mod picture;
 mod pipelines;
 mod readback;
@@ -20,6 +22,7 @@ mod view;
 pub use exposure::{Exposure, ToneCurve, automatic_exposure};
 pub use gpu::{AdapterChoice, Gpu, GpuError, adapter_selector, choose_adapter, device_descriptor};
 pub use legend::Legend;
+pub use picking::pick_patch;
 pub use picture::{Picture, render_picture};
 pub use pipelines::SHADERS;
 pub use view::{Frame, Light, View};

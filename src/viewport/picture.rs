@@ -1,5 +1,6 @@
 //! A picture without a window.
 
+use super::colour_map::encoded;
 use super::readback::{from_half, read_texture};
 use super::targets::{self, SAMPLES};
 use super::{Frame, Gpu, GpuError, Light, Viewport};
@@ -14,11 +15,23 @@ use wgpu::TextureUsages;
 pub struct Picture {
     /// Width and height, pixels.
     pub size: [u32; 2],
-    /// Linear radiance, W/(m²·sr), or the linear colours of a view in false colours, premultiplied with the fourth channel:
-    /// the share of the pixel that the scene covers.
+    /// Linear radiance, W/(m²·sr), or the linear colours of false colours and diagrams, premultiplied with the fourth
+    /// channel: the share of the pixel that is covered.
     pub linear: Vec<[f32; 4]>,
-    /// As on the screen: exposed, tone-mapped and encoded, on an opaque background.
+    /// As on the screen: exposed, tone-mapped and encoded, on an opaque background. Diagrams have none: their fourth
+    /// channel is the same share.
     pub srgb: Vec<[u8; 4]>,
+}
+
+impl Picture {
+    /// A picture of linear colours in [0, 1], premultiplied with the fourth channel, that are shown as they are.
+    pub(super) fn of_colours(size: [u32; 2], linear: Vec<[f32; 4]>) -> Self {
+        let shown = |&[r, g, b, coverage]: &[f32; 4]| {
+            let [r, g, b] = [r, g, b].map(|value| if coverage > 0.0 { encoded(value / coverage) } else { 0 });
+            [r, g, b, (255.0 * coverage).round() as u8]
+        };
+        Self { size, srgb: linear.iter().map(shown).collect(), linear }
+    }
 }
 
 /// Draws a frame of a world and its light as a window would, with `samples` a pixel, rounded up to a multiple of 4.
