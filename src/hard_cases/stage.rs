@@ -2,8 +2,7 @@
 
 use crate::cancel::{Cancel, Cancelled};
 use crate::mesh::{Element, MeshSettings};
-use crate::methods::radiosity::Radiosity;
-use crate::methods::{Method, Settings, Step};
+use crate::methods::{Settings, Step, radiosity};
 use crate::scene::{Scene, SceneError};
 use crate::solution::Solution;
 use crate::world::{World, WorldError};
@@ -59,7 +58,7 @@ impl Stage {
 
     /// The six faces of a box that is looked at from within.
     pub fn room(self, low: DVec3, high: DVec3) -> Self {
-        box_faces(low, high).iter().fold(self, |stage, &[a, b, c, d]| stage.face(&[d, c, b, a]))
+        room_faces(low, high).iter().fold(self, |stage, face| stage.face(face))
     }
 
     /// The six faces of a box that is looked at from outside.
@@ -107,6 +106,11 @@ pub fn level(x: [f64; 2], y: f64, z: [f64; 2]) -> [DVec3; 4] {
     [(x[0], z[0]), (x[0], z[1]), (x[1], z[1]), (x[1], z[0])].map(|(x, z)| DVec3::new(x, y, z))
 }
 
+/// Faces of a box with their fronts inside: floor, ceiling, x low, x high, z low, z high.
+pub fn room_faces(low: DVec3, high: DVec3) -> [[DVec3; 4]; 6] {
+    box_faces(low, high).map(|[a, b, c, d]| [d, c, b, a])
+}
+
 /// Faces of a box with their fronts outside: floor, ceiling, x low, x high, z low, z high.
 fn box_faces(low: DVec3, high: DVec3) -> [[DVec3; 4]; 6] {
     let corner = |i: usize| {
@@ -149,7 +153,7 @@ pub fn solve(world: &Arc<World>, settings: &Settings, cancel: &Cancel) -> Result
 /// # Errors
 /// If cancelled.
 pub fn steps(world: &Arc<World>, settings: &Settings, steps: u64, cancel: &Cancel) -> Result<Solution, Cancelled> {
-    let mut method = Radiosity::new(world.clone(), *settings);
+    let mut method = radiosity::start(world.clone(), settings);
     let mut done = 0;
     while done < steps {
         match method.step(cancel) {
