@@ -1,6 +1,7 @@
 //! The program behind the window: it holds what is on show and is the one place that acts on wishes.
 
 use super::action::Action;
+use super::diagrams::Diagrams;
 use super::file_dialogs::{FileDialogs, Outcome};
 use super::frame_clock::FrameClock;
 use super::model::{Dialog, Look, Model, PathPurpose, PictureRequest, SceneFacts, extension};
@@ -31,6 +32,7 @@ pub struct Explorer {
     snapshot: Arc<Snapshot>,
     pane: ViewportPane,
     pictures: Pictures,
+    diagrams: Diagrams,
     file_dialogs: FileDialogs,
     look: Look,
     /// Settings that are being edited, or were sent and are not in force yet.
@@ -65,6 +67,7 @@ impl Explorer {
             snapshot: worker.latest(),
             worker,
             pictures: Pictures::spawn(pane.gpu().clone(), ctx.clone()),
+            diagrams: Diagrams::default(),
             file_dialogs: FileDialogs::new(ctx),
             look: Look::default(),
             edited: None,
@@ -94,6 +97,7 @@ impl Explorer {
         {
             self.preferences.remember(path);
         }
+        self.diagrams.follow(ctx, &self.snapshot, self.dialog == Some(Dialog::Matrix));
         if self.pane.fly() {
             ctx.request_repaint();
         }
@@ -144,6 +148,8 @@ impl Explorer {
             chart: self.preferences.chart,
             missing: self.snapshot.solution.as_deref().and_then(|solution| self.look.view.missing(solution, picked)),
             legend: self.pane.shown().and_then(|(_, light)| Legend::of(self.look.view, light)),
+            matrix: self.diagrams.matrix(),
+            item_buffer: self.diagrams.item_buffer(),
             patch: PatchFacts::of(&self.snapshot),
             curves: &self.snapshot.curves,
             recent: &self.preferences.recent,

@@ -5,6 +5,7 @@
 
 pub mod action;
 pub mod chart;
+pub mod diagrams;
 mod explorer;
 mod file_dialogs;
 pub mod format;
@@ -14,7 +15,6 @@ pub mod model;
 mod notices;
 pub mod panels;
 pub mod patch;
-mod picking;
 mod pictures;
 mod preferences;
 pub mod theme;

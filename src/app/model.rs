@@ -1,6 +1,7 @@
 //! What the panels show. They read a [`Model`] and return [`super::action::Action`]s; nothing here can be changed by them.
 
 use super::chart::Chart;
+use super::diagrams::MatrixTexture;
 use super::patch::PatchFacts;
 use crate::choice::Choice;
 use crate::cli::picture::Format;
@@ -14,6 +15,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
+use egui::TextureHandle;
 pub use egui::Theme;
 
 /// Everything on show in one frame of the window.
@@ -39,6 +41,10 @@ pub struct Model<'a> {
     pub missing: Option<&'static str>,
     /// Which numbers the false colours of the view stand for.
     pub legend: Option<Legend>,
+    /// The matrix of form factors, where the solver keeps one and it is drawn.
+    pub matrix: Option<&'a MatrixTexture>,
+    /// What the picked patch sees through its hemicube.
+    pub item_buffer: Option<&'a TextureHandle>,
     /// The picked patch, if one is.
     pub patch: Option<PatchFacts<'a>>,
     /// How the runs on this scene went, the one under way last.
@@ -218,6 +224,10 @@ pub enum Dialog {
         purpose: PathPurpose,
         text: String,
     },
+    /// The matrix of form factors.
+    Matrix,
+    /// What the picked patch sees.
+    ItemBuffer,
     Keys,
     About,
 }

@@ -2,10 +2,9 @@
 
 use super::action::CameraMove;
 use super::model::Look;
-use super::picking::patch_at;
 use crate::camera::{Camera, Flight};
 use crate::solution::{Picked, Solution};
-use crate::viewport::{Frame, Gpu, Light, Viewport, automatic_exposure};
+use crate::viewport::{Frame, Gpu, Light, Viewport, automatic_exposure, pick_patch};
 use crate::worker::Snapshot;
 use crate::world::World;
 use eframe::egui_wgpu::{Callback, CallbackResources, CallbackTrait, RenderState, ScreenDescriptor};
@@ -95,20 +94,14 @@ impl ViewportPane {
         }
     }
 
-    /// Width / height.
-    fn aspect(&self) -> f32 {
-        self.size[0] as f32 / self.size[1] as f32
-    }
-
     pub fn move_camera(&mut self, movement: CameraMove) {
-        let aspect = self.aspect();
         let (Some(camera), Some(world)) = (&mut self.camera, &self.world) else { return };
         let mut target = *camera;
         match movement {
             CameraMove::Orbit(drag) => camera.orbit(drag.x, drag.y),
             CameraMove::Pan(drag) => camera.pan(drag.x, drag.y),
             CameraMove::Zoom(factor) => camera.zoom(factor),
-            CameraMove::Fit => target.fit(&world.bounds, aspect),
+            CameraMove::Fit => target.fit(&world.bounds, self.size[0] as f32 / self.size[1] as f32),
             CameraMove::Home => target = Camera::new(&world.viewpoint, &world.bounds),
         }
         let flies = matches!(movement, CameraMove::Fit | CameraMove::Home);
@@ -144,7 +137,8 @@ impl ViewportPane {
     /// The patch that is seen at a point, in shares of the picture's width and height from the top left.
     pub fn patch_at(&self, at: Vec2) -> Option<u32> {
         let (world, camera) = (self.world.as_ref()?, self.camera.as_ref()?);
-        patch_at(world, camera, self.aspect(), at)
+        let pixel = at * Vec2::new(self.size[0] as f32, self.size[1] as f32);
+        pick_patch(world, camera, pixel.into(), self.size)
     }
 
     /// The world and the light on show.

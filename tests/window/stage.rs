@@ -1,10 +1,11 @@
 //! A model made up for the panels, without a worker or a graphics adapter, and the window that shows it.
 
-use egui::{Rect, Vec2};
+use egui::{Rect, TextureHandle, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::NodeT;
 use lightwell::app::action::Action;
 use lightwell::app::chart::Chart;
+use lightwell::app::diagrams::MatrixTexture;
 use lightwell::app::model::{Dialog, FrameTime, Look, LowerPanel, Model, Notice, SceneFacts, Theme};
 use lightwell::app::patch::PatchFacts;
 use lightwell::app::{panels, theme};
@@ -32,6 +33,8 @@ pub struct Stage {
     pub chart: Chart,
     pub missing: Option<&'static str>,
     pub legend: Option<Legend>,
+    pub matrix: Option<MatrixTexture>,
+    pub item_buffer: Option<TextureHandle>,
     pub patch: Option<PatchFacts<'static>>,
     pub curves: Vec<Arc<Curve>>,
     pub notices: Vec<Notice>,
@@ -56,6 +59,8 @@ impl Default for Stage {
             chart: Chart::default(),
             missing: None,
             legend: None,
+            matrix: None,
+            item_buffer: None,
             patch: None,
             curves: Vec::new(),
             notices: Vec::new(),
@@ -95,6 +100,8 @@ impl Stage {
             chart: self.chart,
             missing: self.missing,
             legend: self.legend.clone(),
+            matrix: self.matrix.as_ref(),
+            item_buffer: self.item_buffer.as_ref(),
             patch: self.patch,
             curves: &self.curves,
             recent: &self.recent,

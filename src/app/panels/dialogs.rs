@@ -1,5 +1,6 @@
 //! The dialogs: saving a picture, typing a path, the keys, and what this program is.
 
+use super::diagrams;
 use super::widgets::{Segment, heading, labelled, primary_button, row, segmented};
 use crate::app::action::Action;
 use crate::app::keys::BINDINGS;
@@ -12,17 +13,28 @@ use std::path::PathBuf;
 /// Largest side of a picture, in pixels: what every graphics adapter can draw.
 const MAX_SIDE: u32 = 8192;
 
+/// Width of dialogs that are not as wide as their picture.
+const FORM_WIDTH: f32 = 100.0 * UNIT;
+
 pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     let Some(dialog) = model.dialog else { return };
     // Each kind of dialog has a size of its own.
     let id = Id::unique(("dialog", std::mem::discriminant(dialog)));
     let modal = Modal::new(id).frame(Frame::window(ui.style())).show(ui.ctx(), |ui| {
-        ui.set_width(100.0 * UNIT);
+        let is_picture = matches!(dialog, Dialog::Matrix | Dialog::ItemBuffer);
+        if !is_picture {
+            ui.set_width(FORM_WIDTH);
+        }
         match dialog {
             Dialog::Picture(request) => picture(ui, model, *request, actions),
             Dialog::Path { purpose, text } => path(ui, *purpose, text, actions),
+            Dialog::Matrix => diagrams::matrix(ui, model, actions),
+            Dialog::ItemBuffer => diagrams::item_buffer(ui, model.item_buffer),
             Dialog::Keys => keys(ui, actions),
             Dialog::About => about(ui, model, actions),
+        }
+        if is_picture {
+            close_button(ui, actions);
         }
     });
     if modal.should_close() {

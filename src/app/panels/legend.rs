@@ -23,16 +23,18 @@ pub fn show(ui: &mut Ui, area: Rect, legend: &Legend) {
     let size = vec2(SIZE.x + NUMBER_WIDTH, SIZE.y) + margin.sum();
     let place = Rect::from_min_size(area.max - size - vec2(4.0, 4.0) * UNIT, size);
     ui.scope_builder(UiBuilder::new().max_rect(place), |ui| {
-        let response = Frame::window(ui.style()).inner_margin(margin).show(ui, |ui| {
-            let (rect, response) = ui.allocate_exact_size(place.size() - margin.sum(), Sense::hover());
-            bar(ui.painter(), Rect::from_min_size(rect.min, SIZE), legend);
-            ticks(ui, Rect::from_min_size(rect.min, SIZE), legend);
-            response
-        });
-        let name = format!("Legend: {}", legend.title);
-        response.inner.widget_info(|| WidgetInfo::labeled(Role::Image, true, &name));
-        response.inner.on_hover_text(legend.title);
+        Frame::window(ui.style()).inner_margin(margin).show(ui, |ui| scale(ui, legend));
     });
+}
+
+/// A bar of the colours, and the numbers beside it.
+pub fn scale(ui: &mut Ui, legend: &Legend) {
+    let (rect, response) = ui.allocate_exact_size(vec2(SIZE.x + NUMBER_WIDTH, SIZE.y), Sense::hover());
+    let place = Rect::from_min_size(rect.min, SIZE);
+    bar(ui.painter(), place, legend);
+    ticks(ui, place, legend);
+    response.widget_info(|| WidgetInfo::labeled(Role::Image, true, format!("Legend: {}", legend.title)));
+    response.on_hover_text(legend.title);
 }
 
 fn bar(painter: &Painter, rect: Rect, legend: &Legend) {

@@ -70,6 +70,7 @@ fn view_menu(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
             actions.push(Action::ShowLowerPanel((!is_open).then_some(panel)));
         });
     }
+    item(ui, "Matrix…", Some(&keys::MATRIX), || actions.push(Action::ShowDialog(Dialog::Matrix)));
     ui.separator();
     ui.add_enabled_ui(model.scene.is_some(), |ui| {
         item(ui, "Fit scene", Some(&keys::FIT), || actions.push(Action::Camera(CameraMove::Fit)));

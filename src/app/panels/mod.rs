@@ -2,6 +2,7 @@
 
 mod banner;
 mod chart;
+mod diagrams;
 mod dialogs;
 mod exposure;
 mod findings;

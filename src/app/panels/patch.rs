@@ -4,12 +4,15 @@ use super::widgets::{figure, section, with_key};
 use crate::app::action::Action;
 use crate::app::format;
 use crate::app::keys;
-use crate::app::model::Model;
+use crate::app::model::{Dialog, Model};
 use crate::app::patch::PatchFacts;
 use crate::app::theme::UNIT;
 use crate::math::rgb::Rgb;
 use crate::worker::Command;
-use egui::Ui;
+use egui::{Image, Ui, vec2};
+
+/// Edge of the picture of its item buffer.
+const SIDE: f32 = 48.0 * UNIT;
 
 /// Shows its section of the side panel, where a patch is picked.
 pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
@@ -19,6 +22,23 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
         light(ui, &patch);
         form_factors(ui, &patch);
         ui.add_space(UNIT);
+        item_buffer(ui, model);
+        buttons(ui, actions);
+    });
+}
+
+/// A small picture of what it sees.
+fn item_buffer(ui: &mut Ui, model: &Model) {
+    let Some(texture) = model.item_buffer else { return };
+    let image = Image::from_texture(texture).fit_to_exact_size(vec2(SIDE, SIDE));
+    ui.add(image.alt_text("Item buffer")).on_hover_text("What it sees through its hemicube, unfolded");
+}
+
+fn buttons(ui: &mut Ui, actions: &mut Vec<Action>) {
+    ui.horizontal(|ui| {
+        if ui.button("Enlarge").on_hover_text("Shows the item buffer in a dialog").clicked() {
+            actions.push(Action::ShowDialog(Dialog::ItemBuffer));
+        }
         let hover = with_key(ui, "Takes the outline and this section away", Some(&keys::UNPICK));
         if ui.button("Forget patch").on_hover_text(hover).clicked() {
             actions.push(Action::Send(Command::Pick(None)));
