@@ -36,6 +36,10 @@ pub enum Action {
     /// Opens a panel below the viewport, or closes the one that is open.
     ShowLowerPanel(Option<LowerPanel>),
     SetChart(Chart),
+    /// Runs all hard cases in the background.
+    RunChecks,
+    /// Opens the hard case of this name as a scene.
+    ShowCase(&'static str),
     /// Opens a dialog, or replaces the contents of the one that is open.
     ShowDialog(Dialog),
     CloseDialog,

@@ -13,10 +13,11 @@ use super::preferences::Preferences;
 use super::theme;
 use super::viewport_pane::ViewportPane;
 use crate::cli::picture::{self, Format};
+use crate::hard_cases::cases;
 use crate::methods::Settings;
 use crate::scene::Source;
 use crate::viewport::Legend;
-use crate::worker::{Command, Snapshot, Worker};
+use crate::worker::{Checks, Command, Shown, Snapshot, Worker};
 use egui::{Ui, ViewportCommand};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -33,6 +34,7 @@ pub struct Explorer {
     pane: ViewportPane,
     pictures: Pictures,
     diagrams: Diagrams,
+    checks: Option<Checks>,
     file_dialogs: FileDialogs,
     look: Look,
     /// Settings that are being edited, or were sent and are not in force yet.
@@ -68,6 +70,7 @@ impl Explorer {
             worker,
             pictures: Pictures::spawn(pane.gpu().clone(), ctx.clone()),
             diagrams: Diagrams::default(),
+            checks: None,
             file_dialogs: FileDialogs::new(ctx),
             look: Look::default(),
             edited: None,
@@ -133,6 +136,7 @@ impl Explorer {
     fn show(&mut self, ui: &mut Ui) -> Vec<Action> {
         let mut actions = Vec::new();
         let error = self.snapshot.error.as_deref().filter(|_| !self.is_error_dismissed);
+        let report = self.checks.as_ref().map(Checks::latest);
         let picked = self.snapshot.picked.as_deref();
         let model = Model {
             phase: &self.snapshot.phase,
@@ -146,6 +150,7 @@ impl Explorer {
             theme: self.preferences.theme,
             lower: self.preferences.lower,
             chart: self.preferences.chart,
+            checks: report.as_deref(),
             missing: self.snapshot.solution.as_deref().and_then(|solution| self.look.view.missing(solution, picked)),
             legend: self.pane.shown().and_then(|(_, light)| Legend::of(self.look.view, light)),
             matrix: self.diagrams.matrix(),
@@ -189,6 +194,11 @@ impl Explorer {
             }
             Action::ShowLowerPanel(panel) => self.preferences.lower = panel,
             Action::SetChart(chart) => self.preferences.chart = chart,
+            Action::RunChecks => {
+                let ctx = ctx.clone();
+                self.checks = Some(Checks::spawn(move || ctx.request_repaint()));
+            }
+            Action::ShowCase(name) => self.show_case(ctx, name),
             Action::ShowDialog(dialog) => self.dialog = Some(dialog),
             Action::CloseDialog => self.dialog = None,
             Action::DismissError => self.is_error_dismissed = true,
@@ -200,6 +210,19 @@ impl Explorer {
     fn open(&mut self, scene: String) {
         self.is_error_dismissed = false;
         self.worker.send(Command::Load(scene));
+    }
+
+    fn show_case(&mut self, ctx: &egui::Context, name: &str) {
+        match cases().find(|case| case.name == name).and_then(|case| (case.scene)()) {
+            Some(scene) => {
+                self.is_error_dismissed = false;
+                self.worker.send(Command::Show(Shown(scene)));
+            }
+            None => {
+                let now = ctx.input(|input| input.time);
+                self.notices.tell(now, format!("{name} is about numbers alone: there is no scene to open"));
+            }
+        }
     }
 
     fn configure(&mut self, settings: Settings) {

@@ -153,6 +153,18 @@ pub fn scientific(value: f64) -> String {
     minus(&format!("{value:.1e}"))
 }
 
+/// Six significant digits, with a power of ten where the number is very large or small: `0.190136`, `3.16206e−3`, `12`.
+pub fn figures(value: f64) -> String {
+    let size = value.abs();
+    let number = match size {
+        _ if !value.is_finite() => return NO_VALUE.to_owned(),
+        _ if value.fract() == 0.0 && size < 1e6 => format!("{value}"),
+        _ if (1e-2..1e6).contains(&size) => format!("{value:.*}", (5 - size.log10().floor() as i32).max(0) as usize),
+        _ => format!("{value:.5e}"),
+    };
+    minus(&number)
+}
+
 /// A span of time in the two largest units that it fills: `840 ms`, `1.24 s`, `3 min 12 s`, `2 h 05 min`.
 pub fn duration(span: Duration) -> String {
     let seconds = span.as_secs();
@@ -265,6 +277,20 @@ mod tests {
         assert_eq!(scientific(3.14e-7), "3.1e−7");
         assert_eq!(scientific(-9.96e12), "−1.0e13");
         assert_eq!(scientific(0.0), "0");
+    }
+
+    #[test]
+    fn figures_have_six_digits() {
+        for (value, expected) in [
+            (0.190_135_882_384_807, "0.190136"),
+            (3183.098_86, "3183.10"),
+            (0.003_162_056_838, "3.16206e−3"),
+            (-12.0, "−12"),
+            (4e9, "4.00000e9"),
+        ] {
+            assert_eq!(figures(value), expected);
+        }
+        assert_eq!(figures(f64::NAN), NO_VALUE);
     }
 
     #[test]

@@ -45,6 +45,7 @@ pub const WIREFRAME: KeyboardShortcut = key(Key::W);
 pub const SHOOTER: KeyboardShortcut = key(Key::O);
 pub const UNPICK: KeyboardShortcut = key(Key::Escape);
 pub const CONVERGENCE: KeyboardShortcut = key(Key::C);
+pub const HARD_CASES: KeyboardShortcut = key(Key::K);
 pub const MATRIX: KeyboardShortcut = key(Key::M);
 pub const AMBIENT: KeyboardShortcut = key(Key::A);
 pub const LESS_BOUNCES: KeyboardShortcut = key(Key::Comma);
@@ -84,6 +85,7 @@ pub const BINDINGS: &[Binding] = &[
     Binding::new(MORE_BOUNCES, "View of bounces: one more", |model| bounce(model, 1)).repeating(),
     Binding::new(UNPICK, "Forget the picked patch", |model| model.patch.map(|_| Action::Send(Command::Pick(None)))),
     Binding::new(CONVERGENCE, "Open or close the convergence chart", |model| lower(model, LowerPanel::Convergence)),
+    Binding::new(HARD_CASES, "Open or close the hard cases", |model| lower(model, LowerPanel::HardCases)),
     Binding::new(MATRIX, "Show the matrix of form factors", |_| Some(Action::ShowDialog(Dialog::Matrix))),
     Binding::new(FIT, "Fit the scene into the view", |model| camera(model, CameraMove::Fit)),
     Binding::new(HOME, "Back to the first view of the scene", |model| camera(model, CameraMove::Home)),
@@ -111,6 +113,7 @@ pub fn of_view(view: View) -> KeyboardShortcut {
 pub fn of_lower_panel(panel: LowerPanel) -> KeyboardShortcut {
     match panel {
         LowerPanel::Convergence => CONVERGENCE,
+        LowerPanel::HardCases => HARD_CASES,
     }
 }
 

@@ -10,7 +10,7 @@ use crate::methods::{Settings, Solver};
 use crate::scene::{Finding, FindingKind};
 use crate::solution::Solution;
 use crate::viewport::{Exposure, Legend, ToneCurve, View};
-use crate::worker::{Curve, Phase, Snapshot};
+use crate::worker::{CheckReport, Curve, Phase, Snapshot};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
@@ -49,6 +49,8 @@ pub struct Model<'a> {
     pub patch: Option<PatchFacts<'a>>,
     /// How the runs on this scene went, the one under way last.
     pub curves: &'a [Arc<Curve>],
+    /// How the hard cases went; `None` before they were run.
+    pub checks: Option<&'a CheckReport>,
     /// Scene files that were opened before, newest first.
     pub recent: &'a [PathBuf],
     pub notices: &'a [Notice],
@@ -172,27 +174,31 @@ impl Default for Look {
 #[serde(rename_all = "kebab-case")]
 pub enum LowerPanel {
     Convergence,
+    HardCases,
 }
 
 impl Choice for LowerPanel {
-    const ALL: &'static [Self] = &[Self::Convergence];
+    const ALL: &'static [Self] = &[Self::Convergence, Self::HardCases];
     const KIND: &'static str = "panel";
 
     fn name(self) -> &'static str {
         match self {
             Self::Convergence => "convergence",
+            Self::HardCases => "hard-cases",
         }
     }
 
     fn label(self) -> &'static str {
         match self {
             Self::Convergence => "Convergence",
+            Self::HardCases => "Hard cases",
         }
     }
 
     fn meaning(self) -> &'static str {
         match self {
             Self::Convergence => "How fast each run on this scene came near its end, on one chart",
+            Self::HardCases => "Numbers on which programs of this kind break, each held against what it should be",
         }
     }
 }

@@ -14,7 +14,7 @@ use lightwell::methods::Settings;
 use lightwell::scene::{Finding, FindingKind, Severity};
 use lightwell::solution::{Closure, Counters, Energy, Solution};
 use lightwell::viewport::Legend;
-use lightwell::worker::{Curve, Phase};
+use lightwell::worker::{CheckReport, Curve, Phase};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
@@ -35,6 +35,7 @@ pub struct Stage {
     pub legend: Option<Legend>,
     pub matrix: Option<MatrixTexture>,
     pub item_buffer: Option<TextureHandle>,
+    pub checks: Option<CheckReport>,
     pub patch: Option<PatchFacts<'static>>,
     pub curves: Vec<Arc<Curve>>,
     pub notices: Vec<Notice>,
@@ -61,6 +62,7 @@ impl Default for Stage {
             legend: None,
             matrix: None,
             item_buffer: None,
+            checks: None,
             patch: None,
             curves: Vec::new(),
             notices: Vec::new(),
@@ -102,6 +104,7 @@ impl Stage {
             legend: self.legend.clone(),
             matrix: self.matrix.as_ref(),
             item_buffer: self.item_buffer.as_ref(),
+            checks: self.checks.as_ref(),
             patch: self.patch,
             curves: &self.curves,
             recent: &self.recent,

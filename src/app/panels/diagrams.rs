@@ -10,6 +10,7 @@ use crate::app::theme::UNIT;
 use crate::choice::Choice;
 use crate::methods::{Settings, Solver};
 use crate::viewport::diagram::Diagram;
+use crate::worker::Command;
 use egui::{Align, Color32, Image, Layout, RichText, Spinner, TextureHandle, Ui, vec2};
 
 /// Width of what explains the matrix beside it.
@@ -63,12 +64,20 @@ fn share(ui: &mut Ui, color: Color32, label: &str, share: f64) {
 
 /// Which solvers have one, each a click away.
 fn no_matrix(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
+    if model.settings.solver.needs_matrix() {
+        ui.label("The matrix is built before the first step.");
+        let step = ui.add_enabled(model.can_run(), primary_button(ui, "Do the first step"));
+        if step.on_hover_text("Builds the matrix, does one step and pauses").clicked() {
+            actions.push(Action::Send(Command::Step(1)));
+        }
+        return;
+    }
     ui.label(Diagram::Matrix.remedy());
     ui.add_space(UNIT);
     ui.horizontal(|ui| {
         for &solver in Solver::ALL.iter().filter(|solver| solver.needs_matrix()) {
             let button = primary_button(ui, format!("Use {}", solver.label()));
-            if ui.add_enabled(model.settings.solver != solver, button).on_hover_text(solver.meaning()).clicked() {
+            if ui.add(button).on_hover_text(solver.meaning()).clicked() {
                 actions.push(Action::ApplySettings(Settings { solver, ..model.settings }));
             }
         }

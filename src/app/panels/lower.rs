@@ -1,6 +1,6 @@
 //! What can be opened below the viewport: its tabs are always there, and a click on the open one closes it.
 
-use super::chart;
+use super::{chart, hard_cases};
 use super::widgets::with_key;
 use crate::app::action::Action;
 use crate::app::keys;
@@ -29,10 +29,12 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
             ui.add_space(2.0 * UNIT);
             match open {
                 LowerPanel::Convergence => chart::axes(ui, model.chart, actions),
+                LowerPanel::HardCases => hard_cases::controls(ui, model, actions),
             }
         });
         match open {
             LowerPanel::Convergence => chart::show(ui, model),
+            LowerPanel::HardCases => hard_cases::show(ui, model, actions),
         }
     });
 }

@@ -6,6 +6,7 @@ mod diagrams;
 mod dialogs;
 mod exposure;
 mod findings;
+mod hard_cases;
 mod icons;
 mod ledger;
 mod legend;
