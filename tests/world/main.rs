@@ -3,6 +3,7 @@
 mod elements;
 mod emitters;
 mod exposure;
+mod junctions;
 mod obj;
 mod probe;
 #[path = "../common/shapes.rs"]
