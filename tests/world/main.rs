@@ -5,6 +5,7 @@ mod emitters;
 mod exposure;
 mod junctions;
 mod obj;
+mod occluders;
 mod probe;
 #[path = "../common/shapes.rs"]
 mod shapes;
