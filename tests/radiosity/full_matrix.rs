@@ -43,9 +43,7 @@ fn form_factors_are_bounded_reciprocal_and_close_in_a_closed_room() {
         for i in (0..matrix.size()).filter(|&i| area(i) > 0.0) {
             let (columns, values) = matrix.form_factors.row(i);
             let sum: f64 = values.iter().sum();
-apart += area(i) * (sum - 1.0).abs();
-                println!("{form_factor:?}, row {i}: {sum} {} {:?}", columns.len(), world.mesh.patches[i]);
-            }
+            apart += area(i) * (sum - 1.0).abs();
             for (&j, &value) in columns.iter().zip(values) {
                 let back = entry(j as usize, i) * area(j as usize);
                 assert!((0.0..=1.0).contains(&value), "{form_factor:?} {i} {j}: {value}");
