@@ -13,8 +13,8 @@ use std::f64::consts::TAU;
 
 /// The most corners that a polygon may have in [`area_form_factor`].
 const MAX_CORNERS: usize = 16;
-/// Edges whose directions differ by less (rad) are parallel, those nearer to a right angle do not count.
-const ANGLE_ROUNDING: f64 = 1e-14;
+/// Rounding of a form factor.
+const ROUNDING: f64 = 1e-14;
 /// Lines that pass each other within this share of the edges' length meet: neglects less than its square, times its logarithm.
 const MEETING: f64 = 1e-7;
 /// Where lines meet, in lengths of the longer edge. The closed form is a difference of terms that grow with the square.
@@ -38,11 +38,12 @@ const GAUSS: [(f64, f64); 4] = [
 /// no difference.
 pub fn area_form_factor(from: &[DVec3], to: &[DVec3]) -> f64 {
     let area = vector_area(from).length();
-    if area > 0.0 { (exchange(from, to) / area).clamp(0.0, 1.0) } else { 0.0 }
+    if area > 0.0 { (exchange(from, to, ROUNDING) / area).clamp(0.0, 1.0) } else { 0.0 }
 }
 
-/// Area of either polygon times its form factor to the other, m²; it may be negative by rounding.
-pub(super) fn exchange(one: &[DVec3], other: &[DVec3]) -> f64 {
+/// Area of either polygon times its form factor to the other, m²; it may be negative by rounding. Edges whose directions
+/// differ by less than `angle` (rad) are taken for parallel, and those that are as near to a right angle do not count.
+pub(super) fn exchange(one: &[DVec3], other: &[DVec3], angle: f64) -> f64 {
     // What two polygons see of each other is what each has in front of the other.
     let (origin, one_normal, other_normal) = (one[0], vector_area(one), vector_area(other));
     let (mut first, mut second) = ([DVec3::ZERO; MAX_CORNERS], [DVec3::ZERO; MAX_CORNERS]);
@@ -56,7 +57,7 @@ pub(super) fn exchange(one: &[DVec3], other: &[DVec3]) -> f64 {
     // Any constant may be added to the logarithm, since each contour is closed: this one keeps its values small.
     let unit = mean(second).distance_squared(mean(first)).max(vector_area(first).length());
     let pairs = edges(first).flat_map(|edge| edges(second).map(move |other| (edge, other)));
-    pairs.map(|(edge, other)| edge_exchange(&edge, &other, unit)).sum::<f64>() / TAU
+    pairs.map(|(edge, other)| edge_exchange(&edge, &other, unit, angle)).sum::<f64>() / TAU
 }
 
 fn mean(corners: &[DVec3]) -> DVec3 {
@@ -87,14 +88,14 @@ impl Edge {
 }
 
 /// ∫∫ ½ ln(r² / unit) dx · dx' along two edges.
-fn edge_exchange(edge: &Edge, other: &Edge, unit: f64) -> f64 {
+fn edge_exchange(edge: &Edge, other: &Edge, unit: f64, angle: f64) -> f64 {
     let cosine = edge.direction.dot(other.direction);
-    if cosine.abs() < ANGLE_ROUNDING {
+    if cosine.abs() < angle {
         return 0.0;
     }
     let axis = edge.direction.cross(other.direction);
     let sine = axis.length();
-    if sine < ANGLE_ROUNDING {
+    if sine < angle {
         let aligned = if cosine < 0.0 { other.reversed() } else { *other };
         return cosine.signum() * parallel_edges(edge, &aligned, unit);
     }
@@ -254,7 +255,7 @@ mod tests {
                 fan(corners, apex).map(|triangle| triangle.map(|corner| turn * corner))
             };
             let (ones, others) = (parts(&lower), parts(&other));
-            let sum: f64 = ones.iter().flat_map(|one| others.iter().map(|other| exchange(one, other))).sum();
+            let sum: f64 = ones.iter().flat_map(|one| others.iter().map(|other| exchange(one, other, ROUNDING))).sum();
             // 16 pairs, each of 9 pairs of edges, each good to some 1e-13.
             assert!((sum - exact).abs() < 1e-11, "round {round}, gap {gap}: {sum} for {exact}");
         }
