@@ -11,7 +11,7 @@ use lightwell::math::polygon::form_factor;
 use lightwell::math::random::Stream;
 use lightwell::math::warp::{cosine_hemisphere, frame};
 use lightwell::mesh::MeshSettings;
-use lightwell::methods::radiosity::Radiosity;
+use lightwell::methods::radiosity::Progressive;
 use lightwell::methods::{Method, Settings};
 use lightwell::scene::Scene;
 use lightwell::tracer::Ray;
@@ -104,7 +104,7 @@ fn form_factors(criterion: &mut Criterion) {
 
 /// The time of shots from a range of steps, and the rays in it.
 fn shots(world: &Arc<World>, skip: u64, count: u64) -> (Duration, u64) {
-    let mut method = Radiosity::new(world.clone(), Settings::default());
+    let mut method = Progressive::new(world.clone(), Settings::default());
     for _ in 0..skip {
         method.step(&Cancel::default());
     }

@@ -3,8 +3,9 @@
 use super::values;
 use super::{CliError, warn_of};
 use crate::cancel::Cancel;
+use crate::choice::{Choice, parse};
 use crate::mesh::MeshSettings;
-use crate::methods::{Settings, Step};
+use crate::methods::{FormFactorMethod, Settings, Solver, Step};
 use crate::scene::Scene;
 use crate::solution::Solution;
 use crate::worker::Run;
@@ -24,7 +25,7 @@ pub struct RunOptions {
     /// Longest edge of an element, in the scene's units [default: about 8000 elements in all]
     #[arg(long, value_name = "SIZE", value_parser = values::positive)]
     element: Option<f64>,
-    /// Stop after this many shots
+    /// Stop after this many shots or sweeps
     #[arg(long, value_name = "N", group = "stop")]
     steps: Option<u64>,
     /// Stop after this much solver time
@@ -33,6 +34,26 @@ pub struct RunOptions {
     /// Stop when at most this share of the emitted flux is unshot [default: 0.1]
     #[arg(long, value_name = "PERCENT", group = "stop", value_parser = values::percent)]
     converge: Option<f64>,
+    /// How the equations are solved
+    #[arg(long, value_name = "SOLVER", default_value = Solver::default().name(), value_parser = parse::<Solver>)]
+    solver: Solver,
+    /// How form factors are computed
+    #[arg(long, value_name = "METHOD", default_value = FormFactorMethod::default().name(), value_parser = parse::<FormFactorMethod>)]
+    form_factor: FormFactorMethod,
+    /// Let progressive radiosity also shoot what a patch is expected to receive later
+    #[arg(long)]
+    overshoot: bool,
+    /// Elements along the edge of a patch, at most; with 1, every element is a patch
+    #[arg(long, value_name = "N", default_value_t = MeshSettings::default().elements_per_patch_edge,
+          value_parser = clap::value_parser!(u32).range(1..=i64::from(MeshSettings::MAX_ELEMENTS_PER_PATCH_EDGE)))]
+    patch_edge: u32,
+    /// Rays that carry the emitted flux (form factors by rays)
+    #[arg(long, value_name = "N", default_value_t = Settings::default().light_rays,
+          value_parser = clap::value_parser!(u32).range(i64::from(Settings::MIN_LIGHT_RAYS)..=i64::from(Settings::MAX_LIGHT_RAYS)))]
+    light_rays: u32,
+    /// Cells along the edge of a hemicube's top face
+    #[arg(long, value_name = "N", default_value_t = Settings::default().hemicube_resolution, value_parser = values::hemicube_resolution)]
+    hemicube: u32,
     /// Visibility rays of a receiver for all the light that is expected there
     #[arg(long, value_name = "N", default_value_t = Settings::default().shadow_rays,
           value_parser = clap::value_parser!(u32).range(1..=i64::from(Settings::MAX_SHADOW_RAYS)))]
@@ -53,12 +74,19 @@ impl RunOptions {
     fn settings(&self) -> Settings {
         let limit = self.converge.map_or(Settings::default().unshot_limit, |percent| percent / 100.0);
         Settings {
-            mesh: MeshSettings { element_size: self.element.map(|size| size as f32), ..MeshSettings::default() },
+            mesh: MeshSettings {
+                element_size: self.element.map(|size| size as f32),
+                elements_per_patch_edge: self.patch_edge,
+            },
             // A run that ends by a count or by the clock does not end before.
             unshot_limit: if self.steps.is_some() || self.time.is_some() { 0.0 } else { limit },
             shadow_rays: self.shadow_rays,
+            solver: self.solver,
+            form_factor: self.form_factor,
+            overshoot: self.overshoot,
+            light_rays: self.light_rays,
+            hemicube_resolution: self.hemicube,
             seed: self.seed,
-            ..Settings::default()
         }
     }
 
@@ -80,8 +108,12 @@ impl RunOptions {
         // More seconds than a duration holds are no limit.
         let time = self.time.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok()).unwrap_or(Duration::MAX);
         let mut steps_left = self.steps.unwrap_or(u64::MAX);
-        while steps_left > 0 && run.elapsed() < time && run.step(&Cancel::default()) == Step::Advanced {
-            steps_left -= 1;
+        while steps_left > 0 && run.elapsed() < time {
+            match run.step(&Cancel::default()) {
+                Step::Prepared => {}
+                Step::Advanced => steps_left -= 1,
+                Step::Converged | Step::Cancelled => break,
+            }
         }
         let mut solution = run.solution();
         // However it ended, this says whether it would have ended by itself.

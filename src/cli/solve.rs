@@ -2,6 +2,7 @@
 
 use super::CliError;
 use super::run_options::{RunOptions, Solved};
+use crate::choice::Choice;
 use crate::math::rgb::total;
 use serde_json::{Value, json};
 use std::io::Write;
@@ -28,11 +29,13 @@ pub fn run(options: &Options) -> Result<(), CliError> {
 
 /// Energies are in W, summed over red, green and blue.
 pub fn report(solved: &Solved) -> Value {
-    let Solved { world, solution, .. } = solved;
+    let Solved { world, settings, solution } = solved;
     let energy = &solution.energy;
     json!({
         "scene": world.scene.name,
         "method": "radiosity",
+        "solver": settings.solver,
+        "form_factor": settings.form_factor,
         "steps": solution.steps,
         "seconds": solution.elapsed.as_secs_f64(),
         "patches": world.mesh.patches.len(),
@@ -51,7 +54,7 @@ pub fn report(solved: &Solved) -> Value {
 }
 
 fn text(solved: &Solved) -> String {
-    let Solved { world, solution, .. } = solved;
+    let Solved { world, settings, solution } = solved;
     let energy = &solution.energy;
     let emitted = total(energy.emitted);
     let row = |name: &str, watts: f64| {
@@ -61,11 +64,14 @@ fn text(solved: &Solved) -> String {
         format!("  {name:<10} {watts:>14} W {share:>9.4} %\n")
     };
     let mut text = format!(
-        "{}: {} patches, {} elements\nradiosity: {} shots in {:.3} s, {} rays, {}\n",
+        "{}: {} patches, {} elements\nradiosity, {}, form factors by {}: {} {}s in {:.3} s, {} rays, {}\n",
         world.scene.name,
         world.mesh.patches.len(),
         world.mesh.elements.len(),
+        settings.solver.name(),
+        settings.form_factor.name(),
         solution.steps,
+        settings.solver.step_name(),
         solution.elapsed.as_secs_f64(),
         solution.counters.rays,
         if solution.converged { "converged" } else { "not converged" },
@@ -79,5 +85,11 @@ fn text(solved: &Solved) -> String {
         "  closure of form factors: mean {:.2e}, worst {:.2e}\n",
         solution.closure.mean, solution.closure.worst
     );
+    if solution.counters.clamped > 0 {
+        text += &format!("  form factors above 1, cut down: {}\n", solution.counters.clamped);
+    }
+    if solution.counters.near_field > 0 {
+        text += &format!("  pairs too near for a hemicube: {}\n", solution.counters.near_field);
+    }
     text
 }

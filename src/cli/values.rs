@@ -1,5 +1,6 @@
 //! Values of options, read so strictly that a mistake is told before any work begins.
 
+use crate::methods::Settings;
 use glam::Vec3;
 use std::path::PathBuf;
 
@@ -31,6 +32,13 @@ pub fn percent(text: &str) -> Result<f64, String> {
         .ok()
         .filter(|&percent| percent <= 100.0)
         .ok_or_else(|| "a number above 0 and up to 100 is wanted".to_owned())
+}
+
+/// Cells along the edge of a hemicube: an even number.
+pub fn hemicube_resolution(text: &str) -> Result<u32, String> {
+    let range = Settings::MIN_HEMICUBE_RESOLUTION..=Settings::MAX_HEMICUBE_RESOLUTION;
+    let cells = text.parse().ok().filter(|cells: &u32| range.contains(cells) && cells.is_multiple_of(2));
+    cells.ok_or_else(|| format!("an even number from {} to {} is wanted", range.start(), range.end()))
 }
 
 /// An angle of view in degrees.

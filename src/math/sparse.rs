@@ -1,15 +1,15 @@
 //! A matrix most of whose entries are zero, row after row.
 
 /// Compressed sparse rows; the columns of a row ascend.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Sparse {
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sparse<V = f64> {
     /// Row `i` has the entries `starts[i] .. starts[i + 1]`.
     starts: Vec<usize>,
     columns: Vec<u32>,
-    values: Vec<f32>,
+    values: Vec<V>,
 }
 
-impl Sparse {
+impl<V> Sparse<V> {
     /// A matrix without rows yet, with room for this many rows and entries.
     pub fn with_capacity(rows: usize, entries: usize) -> Self {
         let mut starts = Vec::with_capacity(rows + 1);
@@ -19,11 +19,11 @@ impl Sparse {
 
     /// Bytes that a matrix of this size takes.
     pub fn bytes(rows: usize, entries: usize) -> u64 {
-        ((rows + 1) * size_of::<usize>() + entries * (size_of::<u32>() + size_of::<f32>())) as u64
+        ((rows + 1) * size_of::<usize>() + entries * (size_of::<u32>() + size_of::<V>())) as u64
     }
 
     /// Adds an entry to the row under way; columns must ascend.
-    pub fn push(&mut self, column: u32, value: f32) {
+    pub fn push(&mut self, column: u32, value: V) {
         self.columns.push(column);
         self.values.push(value);
     }
@@ -43,13 +43,13 @@ impl Sparse {
     }
 
     /// Columns of a row and their values.
-    pub fn row(&self, row: usize) -> (&[u32], &[f32]) {
+    pub fn row(&self, row: usize) -> (&[u32], &[V]) {
         let range = self.starts[row]..self.starts[row + 1];
         (&self.columns[range.clone()], &self.values[range])
     }
 
     /// The values of a row, to be changed.
-    pub fn row_mut(&mut self, row: usize) -> (&[u32], &mut [f32]) {
+    pub fn row_mut(&mut self, row: usize) -> (&[u32], &mut [V]) {
         let range = self.starts[row]..self.starts[row + 1];
         (&self.columns[range.clone()], &mut self.values[range])
     }

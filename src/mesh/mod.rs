@@ -11,6 +11,7 @@ pub use locate::Location;
 pub use region::{Region, Sampler};
 pub use subdivide::{element_size_for, estimated_elements, subdivide};
 
+use crate::math::rgb::Rgb64;
 use glam::{Vec3, Vec3A};
 use std::ops::Range;
 
@@ -109,6 +110,16 @@ impl Mesh {
             patch.area = elements.iter().map(|element| element.area).sum();
         }
         self.vertex_areas = smooth::vertex_areas(&self.elements, &self.vertices);
+    }
+
+    /// Mean over the elements of each patch, by exposed area; 0 where nothing is exposed. `values` has one entry an element.
+    pub fn patch_means(&self, values: &[Rgb64]) -> Vec<Rgb64> {
+        let mean = |patch: &Patch| {
+            let range = patch.elements.start as usize..patch.elements.end as usize;
+            let sum: Rgb64 = range.map(|index| values[index] * self.elements[index].area).sum();
+            if patch.area > 0.0 { sum / patch.area } else { Rgb64::ZERO }
+        };
+        self.patches.iter().map(mean).collect()
     }
 
     /// The meshed side of a polygon; `None` where light cannot reach it.

@@ -29,6 +29,12 @@ pub trait Method: Send {
     /// Takes new settings over and goes on; false, and nothing changes, if they need a fresh start.
     fn configure(&mut self, settings: &Settings) -> bool;
 
+    /// Starts over from the emitters with these settings and what is prepared; false, and nothing changes, if that is
+    /// nothing, or of no use for them.
+    fn restart(&mut self, _settings: &Settings) -> bool {
+        false
+    }
+
     /// Copies out what is known so far. Its `elapsed` is zero: whoever steps the method holds the clock.
     fn solution(&self) -> Solution;
 }

@@ -70,6 +70,14 @@ impl Solver {
     pub fn needs_matrix(self) -> bool {
         self != Self::Progressive
     }
+
+    /// What a step is called, in the singular.
+    pub fn step_name(self) -> &'static str {
+        match self {
+            Self::Progressive | Self::Southwell => "shot",
+            Self::Jacobi | Self::GaussSeidel => "sweep",
+        }
+    }
 }
 
 impl Choice for Solver {

@@ -84,11 +84,15 @@ impl Energy {
     }
 }
 
-/// How far the rows of form factors were from closing before they were scaled: |ΣF + escaped − 1| of each shot.
+/// How far form factors were from what they must be, before they were made to be so.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Closure {
+    /// Mean of |ΣF + escaped − 1| over the rows of all shots.
     pub mean: f64,
+    /// The worst of them.
     pub worst: f64,
+    /// Σ |A_i F_ij − A_j F_ji| / Σ (A_i F_ij + A_j F_ji) over all pairs; 0 where pairs are not compared.
+    pub reciprocity: f64,
 }
 
 /// Work done so far.
@@ -110,4 +114,18 @@ pub struct Counters {
     pub clamped: u64,
     /// Pairs too near for a hemicube, computed in closed form instead.
     pub near_field: u64,
+}
+
+impl std::ops::AddAssign for Counters {
+    fn add_assign(&mut self, other: Self) {
+        let Self { rays, shadow_rays, escape_rays, light_rays, form_factors, updates, clamped, near_field } = other;
+        self.rays += rays;
+        self.shadow_rays += shadow_rays;
+        self.escape_rays += escape_rays;
+        self.light_rays += light_rays;
+        self.form_factors += form_factors;
+        self.updates += updates;
+        self.clamped += clamped;
+        self.near_field += near_field;
+    }
 }

@@ -1,17 +1,22 @@
 //! A method with a clock.
 
 use crate::cancel::Cancel;
-use crate::methods::radiosity::Radiosity;
+use crate::methods::radiosity::{self, FullMatrix};
 use crate::methods::{Method, Settings, Step};
 use crate::solution::Solution;
 use crate::world::World;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+/// 2 GiB
+const CAREFUL_GUESS: u64 = 2 << 30;
+
 /// A method at work, and the time that its steps took.
 pub struct Run {
     method: Box<dyn Method>,
     elapsed: Duration,
+    /// The part of it that went into what can be kept for another start.
+    preparation: Duration,
 }
 
 impl Run {
@@ -25,7 +30,7 @@ impl Run {
 
     /// A run of this method, before its first step.
     pub fn of(method: Box<dyn Method>) -> Self {
-        Self { method, elapsed: Duration::ZERO }
+        Self { method, elapsed: Duration::ZERO, preparation: Duration::ZERO }
     }
 
     /// One step on the clock.
@@ -33,7 +38,19 @@ impl Run {
         let start = Instant::now();
         let step = self.method.step(cancel);
         self.elapsed += start.elapsed();
+        if step == Step::Prepared {
+            self.preparation = self.elapsed;
+        }
         step
+    }
+
+    /// Starts over with what is prepared, which keeps its price; false if these settings need another preparation.
+    pub fn restart(&mut self, settings: &Settings) -> bool {
+        let is_kept = self.method.restart(settings);
+        if is_kept {
+            self.elapsed = self.preparation;
+        }
+        is_kept
     }
 
     /// Takes new settings over; false if they need a new run.
@@ -66,5 +83,25 @@ pub enum Refused {
 /// # Errors
 /// If it needs more memory than there is.
 pub fn start_method(world: Arc<World>, settings: &Settings) -> Result<Box<dyn Method>, Refused> {
-    Ok(Box::new(Radiosity::new(world, *settings)))
+    if settings.solver.needs_matrix() {
+        let needed = FullMatrix::bytes(&world.mesh);
+        let available = available_memory();
+        if needed > available {
+            return Err(Refused::Memory {
+                patches: world.mesh.patches.len(),
+                elements: world.mesh.elements.len(),
+                needed_mib: needed >> 20,
+                available_mib: available >> 20,
+            });
+        }
+    }
+    Ok(radiosity::start(world, settings))
+}
+
+/// Bytes that can be had without pushing anything out of memory, or a careful guess where the system does not say.
+fn available_memory() -> u64 {
+    sysinfo::System::new().map_or(CAREFUL_GUESS, |mut system| {
+        system.refresh_memory();
+        system.available_memory()
+    })
 }

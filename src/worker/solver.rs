@@ -172,25 +172,28 @@ impl Solver {
 
     /// Begins a run on a world; if it is refused, everything stays as it was.
     fn start(&mut self, world: Arc<World>) -> Result<(), Refused> {
-        let old_world = self.snapshot.world.replace(world.clone());
-        // Should the method panic before its first step, there is no light that belongs to this world.
-        let old_solution = self.snapshot.solution.take();
-        match (self.start_method)(world.clone(), &self.snapshot.settings) {
-            Ok(method) => {
-                let run = Run::of(method);
-                let is_same_world = old_world.is_some_and(|old| Arc::ptr_eq(&old, &world));
-                self.snapshot.picked = self.snapshot.picked.take().filter(|_| is_same_world);
-                self.history.begin(&self.snapshot.settings);
-                self.record(run.solution());
-                self.run = Some(run);
-                Ok(())
-            }
-            Err(refused) => {
-                self.snapshot.world = old_world;
-                self.snapshot.solution = old_solution;
-                Err(refused)
+        let is_same_world = self.snapshot.world.as_ref().is_some_and(|old| Arc::ptr_eq(old, &world));
+        if !(is_same_world && self.run.as_mut().is_some_and(|run| run.restart(&self.snapshot.settings))) {
+            let old_world = self.snapshot.world.replace(world.clone());
+            // Should the method panic before its first step, there is no light that belongs to this world.
+            let old_solution = self.snapshot.solution.take();
+            match (self.start_method)(world, &self.snapshot.settings) {
+                Ok(method) => self.run = Some(Run::of(method)),
+                Err(refused) => {
+                    self.snapshot.world = old_world;
+                    self.snapshot.solution = old_solution;
+                    return Err(refused);
+                }
             }
         }
+        if !is_same_world {
+            self.snapshot.picked = None;
+        }
+        self.history.begin(&self.snapshot.settings);
+        if let Some(solution) = self.run.as_ref().map(Run::solution) {
+            self.record(solution);
+        }
+        Ok(())
     }
 
     fn restart(&mut self) {

@@ -3,7 +3,7 @@
 use crate::{build, frame, gpu, motley, solution, square};
 use lightwell::cancel::Cancel;
 use lightwell::math::rgb::Rgb;
-use lightwell::methods::radiosity::Radiosity;
+use lightwell::methods::radiosity::Progressive;
 use lightwell::methods::{Method, Settings, Step};
 use lightwell::scene::Scene;
 use lightwell::viewport::{Frame, ToneCurve, View, automatic_exposure, render_picture};
@@ -46,7 +46,7 @@ fn the_automatic_exposure_of_a_furnace_foresees_its_radiosity() {
     // M_e = 1 and ρ = 0.5 everywhere: B = 2 in the end.
     let world = Arc::new(build(Scene::open("furnace").expect("a built-in scene"), 0.5));
     let mid_grey = (0.18 * PI / 2.0).log2();
-    let mut method = Radiosity::new(Arc::clone(&world), Settings::default());
+    let mut method = Progressive::new(Arc::clone(&world), Settings::default());
     for shot in 0..100 {
         let exposure = automatic_exposure(&world, &method.solution());
         // A shot leaves the ledger closed, but spreads light as evenly as its form factors allow.
@@ -60,7 +60,7 @@ fn the_automatic_exposure_of_a_furnace_foresees_its_radiosity() {
 fn the_automatic_exposure_hardly_changes_while_light_spreads() {
     // Open to one side, so some light leaves, which only the first shot tells.
     let world = Arc::new(build(Scene::open("empty-box").expect("a built-in scene"), 0.5));
-    let mut method = Radiosity::new(Arc::clone(&world), Settings::default());
+    let mut method = Progressive::new(Arc::clone(&world), Settings::default());
     method.step(&Cancel::default());
     let first = automatic_exposure(&world, &method.solution());
     while method.step(&Cancel::default()) == Step::Advanced {

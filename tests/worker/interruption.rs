@@ -5,7 +5,7 @@ use crate::{load, median, name, steps, wait_for, with_elements};
 use lightwell::cancel::Cancel;
 use lightwell::math::rgb::Rgb;
 use lightwell::mesh::MeshSettings;
-use lightwell::methods::radiosity::Radiosity;
+use lightwell::methods::radiosity::Progressive;
 use lightwell::methods::{Method, Settings, Step};
 use lightwell::scene::Scene;
 use lightwell::solution::Solution;
@@ -95,7 +95,7 @@ fn a_worker_that_is_dropped_ends_its_thread_at_once() {
 }
 
 /// Counts the steps that were stopped.
-struct Counting(Radiosity, Arc<AtomicU64>);
+struct Counting(Progressive, Arc<AtomicU64>);
 
 impl Method for Counting {
     fn step(&mut self, cancel: &Cancel) -> Step {
@@ -124,7 +124,7 @@ fn a_step_that_was_interrupted_changes_nothing() {
     let cancelled = Arc::new(AtomicU64::new(0));
     let counter = cancelled.clone();
     let start = move |world: Arc<World>, settings: &Settings| -> Result<Box<dyn Method>, Refused> {
-        Ok(Box::new(Counting(Radiosity::new(world, *settings), counter.clone())))
+        Ok(Box::new(Counting(Progressive::new(world, *settings), counter.clone())))
     };
     let worker = Worker::spawn_with(Box::new(start), || ());
     worker.send(Command::Configure(settings));
@@ -154,7 +154,7 @@ fn a_step_that_was_interrupted_changes_nothing() {
 fn a_step_that_may_not_begin_changes_nothing() {
     let scene = Scene::open("furnace").expect("a built-in scene");
     let world = World::build(scene, &MeshSettings::default(), &Cancel::default()).expect("a world");
-    let mut method = Radiosity::new(Arc::new(world), Settings::default());
+    let mut method = Progressive::new(Arc::new(world), Settings::default());
     let stopped = Cancel::default();
     stopped.request();
     let before = method.solution();

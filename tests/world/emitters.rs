@@ -6,7 +6,7 @@ use crate::{Side, build, build_with, element_at, kinds, sides};
 use glam::{DVec3, Vec3, Vec3A};
 use lightwell::cancel::Cancel;
 use lightwell::math::polygon::form_factor;
-use lightwell::methods::radiosity::Radiosity;
+use lightwell::methods::radiosity::Progressive;
 use lightwell::methods::{Method, Settings, Step};
 use lightwell::scene::{FindingKind, Severity};
 use lightwell::solution::Solution;
@@ -23,7 +23,7 @@ fn black_room() -> Obj {
 
 fn solve(world: World) -> (Arc<World>, Solution) {
     let world = Arc::new(world);
-    let mut method = Radiosity::new(world.clone(), Settings::default());
+    let mut method = Progressive::new(world.clone(), Settings::default());
     while method.step(&Cancel::default()) == Step::Advanced {}
     (world, method.solution())
 }

@@ -4,7 +4,7 @@ use crate::build_with;
 use crate::obj::Obj;
 use glam::{Vec3, Vec3A};
 use lightwell::math::rgb::Rgb;
-use lightwell::methods::radiosity::Radiosity;
+use lightwell::methods::radiosity::Progressive;
 use lightwell::methods::{Method, Settings};
 use lightwell::solution::{Solution, SurfaceProbe};
 use lightwell::world::World;
@@ -17,7 +17,7 @@ fn field(point: Vec3A) -> Rgb {
 
 /// A solution with the field's value in the middle of every element.
 fn solution(world: &Arc<World>) -> Solution {
-    let mut solution = Radiosity::new(world.clone(), Settings::default()).solution();
+    let mut solution = Progressive::new(world.clone(), Settings::default()).solution();
     solution.light.irradiance = world.mesh.elements.iter().map(|element| field(element.center)).collect();
     solution
 }

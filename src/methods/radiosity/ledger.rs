@@ -1,12 +1,11 @@
-//! The books of a run: where the emitted flux went, and how far form factors were from adding up.
+//! Rows of form factors made to add up, and what escapes on the way.
 
 use crate::math::rgb::Rgb64;
 use crate::solution::Closure;
 
-/// Sums that only grow; what is absorbed and unshot is counted from the elements and patches themselves.
+/// Sums that go on as rows come in; what is absorbed and unshot is counted from the elements and patches themselves.
+#[derive(Default)]
 pub struct Ledger {
-    /// Σ A M_e, W.
-    pub emitted: Rgb64,
     /// W.
     pub escaped: Rgb64,
     closure_sum: f64,
@@ -15,13 +14,9 @@ pub struct Ledger {
 }
 
 impl Ledger {
-    pub fn new(emitted: Rgb64) -> Self {
-        Self { emitted, escaped: Rgb64::ZERO, closure_sum: 0.0, closure_worst: 0.0, rows: 0 }
-    }
-
-    /// Closes the row of a shooter that shoots `flux` (W): its form factors sum to `row`, and
-    /// its rays say which share is `escaping`.
-    /// Returns the factor that makes both together 1, books what escapes, and keeps the error of before in mind.
+    /// Closes the row of a shooter that shoots `flux` (W): its form factors sum to `row`, and its rays say which share is
+    /// `escaping`. Returns the factor that makes both together 1, books what escapes, and keeps the error of before in
+    /// mind.
     pub fn close_row(&mut self, flux: Rgb64, row: f64, escaping: f64) -> f64 {
         let error = (row + escaping - 1.0).abs();
         self.closure_sum += error;
@@ -38,7 +33,7 @@ impl Ledger {
     }
 
     pub fn closure(&self) -> Closure {
-        Closure { mean: self.closure_sum / self.rows.max(1) as f64, worst: self.closure_worst }
+        Closure { mean: self.closure_sum / self.rows.max(1) as f64, worst: self.closure_worst, reciprocity: 0.0 }
     }
 }
 
@@ -48,7 +43,7 @@ mod tests {
 
     #[test]
     fn rows_close_and_their_error_is_kept() {
-        let mut ledger = Ledger::new(Rgb64::ONE);
+        let mut ledger = Ledger::default();
         let scale = ledger.close_row(Rgb64::ONE, 0.77, 0.2);
         assert!((0.77 * scale + ledger.escaped.x - 1.0).abs() < 1e-15);
         ledger.close_row(Rgb64::ONE, 1.01, 0.0);
@@ -57,7 +52,7 @@ mod tests {
 
     #[test]
     fn flux_that_nothing_receives_escapes() {
-        let mut ledger = Ledger::new(Rgb64::ONE);
+        let mut ledger = Ledger::default();
         assert_eq!(ledger.close_row(Rgb64::ONE, 0.0, 0.0), 0.0);
         assert_eq!(ledger.escaped, Rgb64::ONE);
     }

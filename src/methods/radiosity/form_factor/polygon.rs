@@ -1,9 +1,9 @@
-//! Form factor from a receiving element to a shooting patch in closed form, without regard to what stands between.
+//! Form factor from a receiving element to a shooting patch by a formula, without regard to what stands between.
 
-pub mod hemicube;
-
-use crate::math::polygon::form_factor;
+use super::centroid::{Facet, centroid, disc};
+use crate::math::polygon::{form_factor, vector_area};
 use crate::mesh::{Element, Mesh, Patch};
+use crate::solution::Zero;
 use glam::{DVec3, Vec2, Vec3A};
 
 /// A receiver nearer to the shooter than this many of its own radii is integrated over four points, not one.
@@ -11,11 +11,19 @@ const NEAR_RADII: f64 = 4.0;
 /// Gauss-Legendre points of order 2 on [0, 1]; they have equal weights.
 const GAUSS: [f32; 2] = [0.211_324_87, 0.788_675_1];
 
+/// The formula.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kernel {
+    Centroid,
+    Disc,
+    Polygon,
+}
+
 /// A shooting patch, made ready for many receivers.
 pub struct Shooter {
+    facet: Facet,
     corners: [DVec3; 4],
     count: usize,
-    center: DVec3,
     normal: Vec3A,
     /// Distance of the farthest corner from the centre, m.
     radius: f64,
@@ -30,25 +38,46 @@ impl Shooter {
         }
         let center = patch.center.as_dvec3();
         let radius = corners[..count].iter().map(|corner| corner.distance(center)).fold(0.0, f64::max);
-        Self { corners, count, center, normal: patch.normal, radius }
+        // Its whole area, exposed or not: how much of it is seen is a matter of visibility.
+        let area = vector_area(&corners[..count]).length();
+        let facet = Facet { center, normal: patch.normal.as_dvec3(), area };
+        Self { facet, corners, count, normal: patch.normal, radius }
     }
 
-    /// Whether some of the receiving patch may see the front of the shooter: each reaches more than `tolerance` (m)
-    /// above the other's plane. Patches of one plane do not, whatever their corners were rounded to.
-    pub fn may_reach(&self, receiver: &Patch, tolerance: f32) -> bool {
-        let center = self.center.as_vec3a();
-        let above_shooter = |corner: &glam::Vec3| (Vec3A::from(*corner) - center).dot(self.normal) > tolerance;
+    /// Why no part of the receiving patch can see the front of the shooter, whatever stands between them, or `None` if
+    /// some may: each reaches more than `tolerance` (m) above the other's plane. Patches of one plane do not, whatever
+    /// their corners were rounded to.
+    pub fn out_of_sight(&self, receiver: &Patch, tolerance: f32) -> Option<Zero> {
+        let center = self.facet.center.as_vec3a();
+        let height = |corner: &glam::Vec3| (Vec3A::from(*corner) - center).dot(self.normal);
         let above_receiver = |corner: &DVec3| (corner.as_vec3a() - receiver.center).dot(receiver.normal) > tolerance;
-        receiver.corners().iter().any(above_shooter) && self.corners[..self.count].iter().any(above_receiver)
+        let corners = receiver.corners();
+        if corners.iter().any(|corner| height(corner) > tolerance)
+            && self.corners[..self.count].iter().any(above_receiver)
+        {
+            return None;
+        }
+        let is_flat = corners.iter().all(|corner| height(corner).abs() <= tolerance);
+        Some(if is_flat && receiver.normal.dot(self.normal) > 0.0 { Zero::SamePlane } else { Zero::FacesAway })
     }
 
-    /// Mean form factor from the points of an element with this unit normal to the shooter: at its centre, or over four
-    /// (of a triangle, three) points where the shooter is so near that it looks different from each.
-    pub fn form_factor(&self, mesh: &Mesh, element: &Element, normal: DVec3) -> f64 {
+    /// Form factor from an element with this unit normal to the shooter.
+    pub fn form_factor(&self, kernel: Kernel, mesh: &Mesh, element: &Element, normal: DVec3) -> f64 {
+        let receiver = || Facet { center: element.center.as_dvec3(), normal, area: element.area };
+        match kernel {
+            Kernel::Centroid => centroid(&receiver(), &self.facet),
+            Kernel::Disc => disc(&receiver(), &self.facet),
+            Kernel::Polygon => self.mean_form_factor(mesh, element, normal),
+        }
+    }
+
+    /// Mean over the points of the element: at its centre, or over four (of a triangle, three) points where the shooter
+    /// is so near that it looks different from each.
+    fn mean_form_factor(&self, mesh: &Mesh, element: &Element, normal: DVec3) -> f64 {
         let center = element.center.as_dvec3();
         // The radius of a square; what is longer is narrower, and the area is at hand.
         let radius = (0.5 * element.area).sqrt();
-        if center.distance(self.center) - self.radius > NEAR_RADII * radius {
+        if center.distance(self.facet.center) - self.radius > NEAR_RADII * radius {
             return form_factor(center, normal, &self.corners[..self.count]);
         }
         let region = mesh.region(element);
@@ -99,7 +128,7 @@ mod tests {
                 let shooter = Shooter::new(patch);
                 let of = |element: &Element| {
                     let normal = mesh.patches[element.patch as usize].normal.as_dvec3();
-                    element.area * shooter.form_factor(&mesh, element, normal)
+                    element.area * shooter.form_factor(Kernel::Polygon, &mesh, element, normal)
                 };
                 mesh.elements[receivers.start as usize..receivers.end as usize].iter().map(of).sum::<f64>()
             })

@@ -1,0 +1,91 @@
+//! What patches do with light, and sums over them that every solver needs.
+
+use crate::math::rgb::{Rgb64, total};
+use crate::mesh::{Mesh, Patch};
+use crate::solution::ElementLight;
+use crate::world::World;
+
+/// Areas, reflectances and emission of the patches, in their order.
+pub struct Surfaces {
+    /// Exposed area, m².
+    pub area: Vec<f64>,
+    /// ρ
+    pub reflectance: Vec<Rgb64>,
+    /// M_e, W/m²
+    pub exitance: Vec<Rgb64>,
+    /// Σ A M_e, W
+    pub emitted: Rgb64,
+    /// Share of light that leaves the scene on its way from one surface to the next.
+    escape_share: f64,
+}
+
+impl Surfaces {
+    pub fn new(world: &World) -> Self {
+        let patches = &world.mesh.patches;
+        let material = |patch: &Patch| &world.scene.materials[patch.material as usize];
+        // Emitters shine from their front; their back only reflects.
+        let exitance = |patch: &Patch| if patch.is_front { material(patch).exitance().as_dvec3() } else { Rgb64::ZERO };
+        Self {
+            area: patches.iter().map(|patch| patch.area).collect(),
+            reflectance: patches.iter().map(|patch| material(patch).diffuse.as_dvec3()).collect(),
+            exitance: patches.iter().map(exitance).collect(),
+            emitted: patches.iter().map(|patch| exitance(patch) * patch.area).sum(),
+            escape_share: world.escape_share,
+        }
+    }
+
+    /// Σ A b of one quantity per area for each patch, W where that is W/m².
+    pub fn flux(&self, per_area: &[Rgb64]) -> Rgb64 {
+        self.area.iter().zip(per_area).map(|(area, value)| *value * *area).sum()
+    }
+
+    /// Σ A |b|, summed over RGB.
+    pub fn absolute_flux(&self, per_area: &[Rgb64]) -> f64 {
+        self.area.iter().zip(per_area).map(|(area, value)| total(value.abs()) * area).sum()
+    }
+
+    /// Total exposed area, m².
+    pub fn total_area(&self) -> f64 {
+        self.area.iter().sum()
+    }
+
+    /// The mean irradiance, W/m², that `flux` (W) will bring with all its reflections if it spreads evenly over a room
+    /// with the mean reflectance ρ̄ of the scene and its share ε of light that escapes on the way:
+    /// Φ (1 − ε) / (S (1 − ρ̄ (1 − ε))). It is the ambient term of Cohen, Chen, Wallace, Greenberg (1988), for rooms that
+    /// may be open.
+    pub fn ambient(&self, flux: Rgb64) -> Rgb64 {
+        let area = self.total_area();
+        if area == 0.0 {
+            return Rgb64::ZERO;
+        }
+        let mean = self.flux(&self.reflectance) / area;
+        let arriving = 1.0 - self.escape_share;
+        flux * arriving / (area * (Rgb64::ONE - mean * arriving))
+    }
+
+    /// Σ (1 − ρ) A E: what stays in the surfaces, W. `irradiance` has one entry a patch.
+    pub fn absorbed(&self, irradiance: &[Rgb64]) -> Rgb64 {
+        let absorptance = self.reflectance.iter().map(|reflectance| Rgb64::ONE - *reflectance);
+        irradiance.iter().zip(absorptance).zip(&self.area).map(|((e, absorbing), area)| absorbing * *e * *area).sum()
+    }
+
+    /// Area-weighted mean of E, W/m² summed over RGB. `irradiance` has one entry a patch.
+    pub fn mean_irradiance(&self, irradiance: &[Rgb64]) -> f64 {
+        let area = self.total_area();
+        if area > 0.0 { total(self.flux(irradiance)) / area } else { 0.0 }
+    }
+
+    /// Light on elements, from their irradiance and the unshot radiosity of their patches, W/m².
+    pub fn light(&self, mesh: &Mesh, irradiance: &[Rgb64], unshot: &[Rgb64]) -> ElementLight {
+        let elements = || mesh.elements.iter().zip(irradiance);
+        let radiosity = elements().map(|(element, irradiance)| {
+            let patch = element.patch as usize;
+            (self.exitance[patch] + self.reflectance[patch] * *irradiance).as_vec3()
+        });
+        ElementLight {
+            radiosity: radiosity.collect(),
+            irradiance: irradiance.iter().map(|irradiance| irradiance.as_vec3()).collect(),
+            unshot: mesh.elements.iter().map(|element| unshot[element.patch as usize].as_vec3()).collect(),
+        }
+    }
+}
