@@ -7,7 +7,7 @@ use crate::app::model::Model;
 use crate::app::theme::{Palette, UNIT};
 use crate::hard_cases::{Case, Row, Verdict, cases};
 use crate::worker::CheckReport;
-use egui::{Align, Button, Label, Layout, Rect, RichText, ScrollArea, Sense, Shape, Spinner, Stroke, Ui, vec2};
+use egui::{Align, Button, Label, Layout, Rect, RichText, ScrollArea, Sense, Shape, Stroke, Ui, vec2};
 
 /// Height of a row.
 const HEIGHT: f32 = 6.0 * UNIT;
@@ -24,9 +24,6 @@ pub fn controls(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
         actions.push(Action::RunChecks);
     }
     let Some(report) = model.checks else { return };
-    if is_running {
-        ui.add(Spinner::new().size(4.0 * UNIT));
-    }
     ui.add(Label::new(summary(report)).truncate());
 }
 

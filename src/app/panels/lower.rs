@@ -1,7 +1,7 @@
 //! What can be opened below the viewport: its tabs are always there, and a click on the open one closes it.
 
-use super::{chart, hard_cases};
 use super::widgets::with_key;
+use super::{chart, hard_cases};
 use crate::app::action::Action;
 use crate::app::keys;
 use crate::app::model::{LowerPanel, Model};

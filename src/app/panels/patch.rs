@@ -22,8 +22,8 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
         light(ui, &patch);
         form_factors(ui, &patch);
         ui.add_space(UNIT);
-        item_buffer(ui, model);
         buttons(ui, actions);
+        item_buffer(ui, model);
     });
 }
 
