@@ -10,6 +10,7 @@ use egui_kittest::kittest::Queryable;
 use lightwell::app::action::{Action, CameraMove};
 use lightwell::app::model::{Dialog, Look, Notice, PathPurpose};
 use lightwell::app::{Explorer, theme};
+use lightwell::choice::Choice;
 use lightwell::methods::Settings;
 use lightwell::scene::{FindingKind, Severity};
 use lightwell::viewport::{AdapterChoice, Gpu, View};
@@ -87,7 +88,7 @@ fn letters_and_digits_do_what_the_help_says() {
     assert_eq!(press(Key::F), [Action::Camera(CameraMove::Fit)]);
     let look = Look::default();
     assert_eq!(press(Key::W), [Action::SetLook(Look { wireframe: true, ..look })]);
-    for (digit, view) in [Key::Num1, Key::Num2, Key::Num3].into_iter().zip(View::ALL) {
+    for (digit, view) in [Key::Num1, Key::Num2, Key::Num3].into_iter().zip(View::ALL.iter().copied()) {
         assert_eq!(press(digit), [Action::SetLook(Look { view, ..look })]);
     }
     assert_eq!(key(Stage::empty(), Modifiers::COMMAND, Key::O), [Action::BrowseForScene]);
@@ -214,7 +215,7 @@ fn without_a_scene_there_is_nothing_to_run_but_something_to_open() {
 #[test]
 fn the_view_bar_changes_the_look() {
     let look = Look::default();
-    for view in View::ALL {
+    for &view in View::ALL {
         assert_eq!(click(Stage::default(), view.label()), [Action::SetLook(Look { view, ..look })]);
     }
     assert_eq!(click(Stage::default(), "Wireframe"), [Action::SetLook(Look { wireframe: true, ..look })]);

@@ -200,14 +200,13 @@ impl Explorer {
     }
 
     fn save_picture(&mut self, request: PictureRequest, destination: Destination) {
-        let (Some((world, solution)), Some(frame)) = (self.pane.shown(), self.pane.frame(&self.look, request.size))
-        else {
+        let (Some((world, light)), Some(frame)) = (self.pane.shown(), self.pane.frame(&self.look, request.size)) else {
             return;
         };
         let job = Job {
-            facts: picture::facts(world, solution, &self.snapshot.settings, &frame),
+            facts: picture::facts(world, light, &self.snapshot.settings, &frame),
             world: Arc::clone(world),
-            solution: Arc::clone(solution),
+            light: light.clone(),
             frame,
             samples: request.samples,
             destination,

@@ -38,6 +38,9 @@ pub const RESET: KeyboardShortcut = key(Key::R);
 pub const PATCHES: KeyboardShortcut = key(Key::Num1);
 pub const SMOOTH: KeyboardShortcut = key(Key::Num2);
 pub const UNSHOT: KeyboardShortcut = key(Key::Num3);
+pub const ABSORBED: KeyboardShortcut = key(Key::Num4);
+pub const BOUNCES: KeyboardShortcut = key(Key::Num5);
+pub const FORM_FACTORS: KeyboardShortcut = key(Key::Num6);
 pub const WIREFRAME: KeyboardShortcut = key(Key::W);
 pub const SHOOTER: KeyboardShortcut = key(Key::O);
 pub const FIT: KeyboardShortcut = key(Key::F);
@@ -48,7 +51,7 @@ pub const QUIT: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key
 pub const HELP: KeyboardShortcut = key(Key::F1);
 
 /// Every key of the window, in the order of its help.
-pub const BINDINGS: [Binding; 16] = [
+pub const BINDINGS: [Binding; 19] = [
     Binding::new(RUN, "Run or pause", |model| model.can_run().then(|| run_or_pause(model))),
     Binding::new(STEP_1, "One shot", |model| step(model, 1)).repeating(),
     Binding::new(STEP_10, "Ten shots", |model| step(model, 10)),
@@ -59,6 +62,9 @@ pub const BINDINGS: [Binding; 16] = [
     Binding::new(PATCHES, "View: one colour a patch", |model| view(model, View::Patches)),
     Binding::new(SMOOTH, "View: smooth light", |model| view(model, View::Smooth)),
     Binding::new(UNSHOT, "View: light not shot yet", |model| view(model, View::Unshot)),
+    Binding::new(ABSORBED, "View: absorbed light", |model| view(model, View::Absorbed)),
+    Binding::new(BOUNCES, "View: light after some bounces", |model| view(model, View::Bounces)),
+    Binding::new(FORM_FACTORS, "View: form factors from the picked patch", |model| view(model, View::FormFactors)),
     Binding::new(WIREFRAME, "Show or hide the elements' edges", |model| {
         Some(Action::SetLook(Look { wireframe: !model.look.wireframe, ..model.look }))
     }),
@@ -81,6 +87,9 @@ pub fn of_view(view: View) -> KeyboardShortcut {
         View::Patches => PATCHES,
         View::Smooth => SMOOTH,
         View::Unshot => UNSHOT,
+        View::Absorbed => ABSORBED,
+        View::Bounces => BOUNCES,
+        View::FormFactors => FORM_FACTORS,
     }
 }
 

@@ -100,6 +100,10 @@ impl<'a> SceneFacts<'a> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Look {
     pub view: View,
+    /// How many bounces of light [`View::Bounces`] shows.
+    pub bounce: usize,
+    /// Adds what the unshot light will bring on average.
+    pub ambient: bool,
     pub wireframe: bool,
     /// Outlines the patch that shot last.
     pub show_shooter: bool,
@@ -111,6 +115,8 @@ impl Default for Look {
     fn default() -> Self {
         Self {
             view: View::Smooth,
+            bounce: 0,
+            ambient: false,
             wireframe: false,
             show_shooter: true,
             exposure: Exposure::Automatic,

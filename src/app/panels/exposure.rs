@@ -5,6 +5,7 @@ use crate::app::action::Action;
 use crate::app::format;
 use crate::app::model::{Look, Model};
 use crate::app::theme::UNIT;
+use crate::choice::Choice as _;
 use crate::viewport::{Exposure, ToneCurve};
 use egui::{Checkbox, Ui};
 
@@ -29,15 +30,13 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     if response.changed() {
         actions.push(Action::SetLook(Look { exposure: Exposure::Manual(ev), ..look }));
     }
-    let choices = ToneCurve::ALL.map(|tone| Choice {
+    let choice = |&tone: &ToneCurve| Choice {
         name: tone.label(),
-        hover: match tone {
-            ToneCurve::Filmic => "Bright light fades to white as on film",
-            ToneCurve::Linear => "In proportion to radiance; what is brighter than white is cut off",
-        },
+        hover: tone.meaning(),
         shortcut: None,
         is_chosen: look.tone == tone,
-    });
+    };
+    let choices: Vec<Choice> = ToneCurve::ALL.iter().map(choice).collect();
     let hover = "How the range of the light is bent to fit that of the screen";
     if let Some(chosen) = row(ui, "Tone curve", hover, |ui, _| segmented(ui, 20.0 * UNIT, &choices)) {
         actions.push(Action::SetLook(Look { tone: ToneCurve::ALL[chosen], ..look }));

@@ -4,6 +4,7 @@ use super::icons::Icon;
 use crate::app::action::{Action, CameraMove};
 use crate::app::keys;
 use crate::app::model::{Dialog, Look, Model, PictureRequest, Theme};
+use crate::choice::Choice as _;
 use crate::cli::picture::Format;
 use crate::scene::BUILTINS;
 use crate::viewport::View;
@@ -51,7 +52,7 @@ fn file_menu(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
 
 fn view_menu(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     let look = model.look;
-    for view in View::ALL {
+    for &view in View::ALL {
         let chosen = || actions.push(Action::SetLook(Look { view, ..look }));
         choice(ui, view.label(), look.view == view, Some(&keys::of_view(view)), chosen);
     }

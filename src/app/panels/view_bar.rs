@@ -5,6 +5,7 @@ use crate::app::action::{Action, CameraMove};
 use crate::app::keys;
 use crate::app::model::{Look, Model};
 use crate::app::theme::UNIT;
+use crate::choice::Choice as _;
 use crate::viewport::View;
 use egui::{Align, Layout, Ui};
 
@@ -28,16 +29,13 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
 }
 
 fn views(ui: &mut Ui, look: Look, actions: &mut Vec<Action>) {
-    let choices = View::ALL.map(|view| Choice {
+    let choice = |&view: &View| Choice {
         name: view.label(),
-        hover: match view {
-            View::Patches => "One colour an element: what the solver computed",
-            View::Smooth => "Light blended between elements that lie on one surface",
-            View::Unshot => "Light that has arrived and was not passed on yet",
-        },
+        hover: view.meaning(),
         shortcut: Some(keys::of_view(view)),
         is_chosen: look.view == view,
-    });
+    };
+    let choices: Vec<Choice> = View::ALL.iter().map(choice).collect();
     if let Some(chosen) = segmented(ui, 20.0 * UNIT, &choices) {
         actions.push(Action::SetLook(Look { view: View::ALL[chosen], ..look }));
     }
