@@ -57,7 +57,7 @@ fn mean_radiosity(scene: Scene, solver: Solver, rows: &Rows) -> Result<f64, Canc
 }
 
 fn bright_room(rows: &mut Rows) -> Result<(), Cancelled> {
-    let guard = "rows of form factors close, and energy is summed in double precision";
+    let guard = "rows of form factors close: what leaves a patch arrives or escapes";
     for (reflectance, solver, name) in [
         (0.99_f32, Solver::Progressive, "progressive"),
         (0.99, Solver::Jacobi, "Jacobi"),

@@ -176,7 +176,8 @@ fn furnace(rows: &mut Rows) -> Result<(), Cancelled> {
             form_factor,
             solver: Solver::GaussSeidel,
             unshot_limit: 1e-8,
-            light_rays: 1_000_000,
+            light_rays: 200_000,
+            hemicube_resolution: 64,
             ..Settings::default()
         };
         let solution = steps(&world, &settings, 1000, rows.cancel)?;
