@@ -73,7 +73,12 @@ fn tiny_lamp(rows: &mut Rows) -> Result<(), Cancelled> {
     // The row is scaled to close, by less than what its closure says; centres agree to rounding.
     let tolerance = solution.closure.worst + 1e-4;
     println!("tiny lamp {:?} area {}", solution.closure, world.mesh.area());
-    rows.check("largest deviation of light on the floor", floor.map(deviation).fold(f64::NAN, f64::max), about(0.0, tolerance), guard);
+    rows.check(
+        "largest deviation of light on the floor",
+        floor.map(deviation).fold(f64::NAN, f64::max),
+        about(0.0, tolerance),
+        guard,
+    );
     rows.check("flux emitted, W", solution.energy.emitted.x, about(PI, 1e-3), "areas in double precision");
     Ok(())
 }
@@ -107,7 +112,12 @@ fn turned_lamp(rows: &mut Rows) -> Result<(), Cancelled> {
         floor.map(|i| world.mesh.elements[i].area * f64::from(solution.light.irradiance[i].x)).sum::<f64>()
     };
     println!("floor {} {}", floor(&world, &right), floor(&world, &turned));
-    rows.check("flux on the floor over that of a lamp hung right", floor(&world, &turned) / floor(&world, &right), about(1.0, 5e-3), guard);
+    rows.check(
+        "flux on the floor over that of a lamp hung right",
+        floor(&world, &turned) / floor(&world, &right),
+        about(1.0, 5e-3),
+        guard,
+    );
     Ok(())
 }
 

@@ -207,7 +207,12 @@ fn block_at(rows: &mut Rows, foot: f64) -> Result<(), Cancelled> {
     // The room, and of the block its four sides above the floor; its top is as large as what it covers.
     let edge = 2.0 * (0.38 + 0.35);
     // Points on an 8 × 8 grid tell which part of an element is covered: half a cell along the edge of the foot.
-    rows.check("surface that light can reach, m²", world.mesh.area(), about(6.0 + 0.4 * edge, edge * 0.1 / 16.0), guard);
+    rows.check(
+        "surface that light can reach, m²",
+        world.mesh.area(),
+        about(6.0 + 0.4 * edge, edge * 0.1 / 16.0),
+        guard,
+    );
     let settings = Settings { unshot_limit: 1e-4, ..Settings::default() };
     let solution = solve(&world, &settings, rows.cancel)?;
     rows.check("largest deviation from B = 2", unevenness(&world, &solution), about(0.0, 2e-2), guard);
@@ -235,6 +240,11 @@ fn wall_on_the_floor(rows: &mut Rows) -> Result<(), Cancelled> {
     let reason = "an element has one irradiance; where a wall crosses it, light comes out on the other side";
     // Eight elements with 64 points each, half of which see the lamp: 1/√512, twice.
     let expected = 0.5 * 0.5 * lit;
-    rows.limit("the same, wall across the middle of elements (0 would be right)", across, about(expected, 0.09 * expected), reason);
+    rows.limit(
+        "the same, wall across the middle of elements (0 would be right)",
+        across,
+        about(expected, 0.09 * expected),
+        reason,
+    );
     Ok(())
 }
