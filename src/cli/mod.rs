@@ -100,8 +100,6 @@ pub enum CliError {
     NoSuchBounce { kept: usize },
     #[error("there is nothing to draw yet: {0}")]
     Missing(&'static str),
-    #[error("{failed} of {rows} rows fail")]
-    Check { failed: usize, rows: usize },
     #[error("cannot print")]
     Print(#[from] std::io::Error),
 }
