@@ -91,9 +91,7 @@ fn before_the_wall(distance: f64) -> f64 {
 }
 
 fn shared_edge(rows: &mut Rows) -> Result<(), Cancelled> {
-    for (distance, expected) in
-        [(1e-3, 0.499_215_797_596_26), (1e-6, 0.499_999_215_796_61), (1e-9, 0.499_999_999_215_797)]
-    {
+    for (distance, expected) in [(1e-3, 0.499_215_797_596_26), (1e-9, 0.499_999_999_215_797)] {
         // Some ten roundings of numbers below 1.
         let quantity = format!("F, {distance:.0e} before the foot of a wall");
         rows.check(quantity, before_the_wall(distance), about(expected, 1e-14), ARC_TANGENT);
@@ -105,7 +103,7 @@ fn shared_edge(rows: &mut Rows) -> Result<(), Cancelled> {
 }
 
 fn gap(rows: &mut Rows) -> Result<(), Cancelled> {
-    for gap in [1.0, 1e-3, 1e-6, 1e-9] {
+    for gap in [1.0, 1e-3, 1e-9] {
         let plate = level([0.0, 1.0], gap, [0.0, 1.0]);
         let down = [plate[3], plate[2], plate[1], plate[0]];
         let got = form_factor(DVec3::new(0.5, 0.0, 0.5), DVec3::Y, &down);

@@ -69,7 +69,6 @@ fn not_a_number(rows: &mut Rows) -> Result<(), Cancelled> {
             let light = steps(&world, &Settings { shadow_rays: 4, ..Settings::default() }, 4, rows.cancel)?.light;
             broken += light.radiosity.iter().filter(|radiosity| !radiosity.is_finite()).count();
         }
-        println!("{tried} tried");
         let guard = "every number is checked where it is read, and what is none is mended or left out";
         rows.check(
             format!("elements that are no number, {tried} scenes with one {number}"),
