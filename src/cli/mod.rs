@@ -1,5 +1,6 @@
 //! The command line: the same code as the window, without one. One file a command.
 
+mod form_factor;
 mod inspect;
 pub mod picture;
 mod probe;
@@ -45,6 +46,9 @@ pub enum Command {
     Solve(solve::Options),
     /// Solve a scene and print the irradiance at points
     Probe(probe::Options),
+    /// Compute the form factor between two polygons by every method
+    #[command(name = "formfactor")]
+    FormFactor(form_factor::Options),
     /// Print what a scene holds and what was wrong with it
     Inspect(inspect::Options),
     /// List the built-in scenes
@@ -59,6 +63,7 @@ impl Command {
             Self::Render(options) => render::run(options),
             Self::Solve(options) => solve::run(options),
             Self::Probe(options) => probe::run(options),
+            Self::FormFactor(options) => form_factor::run(options),
             Self::Inspect(options) => inspect::run(options),
             Self::Scenes(options) => scenes::run(options),
         }

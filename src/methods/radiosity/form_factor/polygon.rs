@@ -9,7 +9,7 @@ use glam::{DVec3, Vec2, Vec3A};
 /// A receiver nearer to the shooter than this many of its own radii is integrated over four points, not one.
 const NEAR_RADII: f64 = 4.0;
 /// Gauss-Legendre points of order 2 on [0, 1]; they have equal weights.
-const GAUSS: [f32; 2] = [0.211_324_87, 0.788_675_1];
+pub(super) const GAUSS: [f32; 2] = [0.211_324_87, 0.788_675_1];
 
 /// The formula.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
