@@ -37,7 +37,7 @@ pub fn percent(text: &str) -> Result<f64, String> {
 /// Cells along the edge of a hemicube: an even number.
 pub fn hemicube_resolution(text: &str) -> Result<u32, String> {
     let range = Settings::MIN_HEMICUBE_RESOLUTION..=Settings::MAX_HEMICUBE_RESOLUTION;
-    let cells = text.parse().ok().filter(|cells: &u32| range.contains(cells) && cells % 2 == 0);
+    let cells = text.parse().ok().filter(|cells: &u32| range.contains(cells) && cells.is_multiple_of(2));
     cells.ok_or_else(|| format!("an even number from {} to {} is wanted", range.start(), range.end()))
 }
 

@@ -120,7 +120,7 @@ pub fn solution() -> Solution {
         elapsed: Duration::from_millis(2_500),
         converged: false,
         energy: Energy { emitted: watts(10.0), absorbed: watts(6.0), unshot: watts(3.0), escaped: watts(1.0) },
-        closure: Closure { mean: 0.0123, worst: 0.07 },
+        closure: Closure { mean: 0.0123, worst: 0.07, reciprocity: 0.0 },
         counters: Counters { rays: 31_000_000, ..Counters::default() },
         shooter: None,
         ..Solution::default()

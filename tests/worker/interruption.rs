@@ -95,7 +95,7 @@ fn a_worker_that_is_dropped_ends_its_thread_at_once() {
 }
 
 /// Counts the steps that were stopped.
-struct Counting(Radiosity, Arc<AtomicU64>);
+struct Counting(Progressive, Arc<AtomicU64>);
 
 impl Method for Counting {
     fn step(&mut self, cancel: &Cancel) -> Step {

@@ -1,9 +1,10 @@
 //! What one patch sees.
 
-use super::form_factor::{FormFactors, Shot};
+use super::form_factor::{FormFactors, Hemicubes};
+use super::surfaces::Surfaces;
 use crate::cancel::Cancel;
 use crate::methods::Settings;
-use crate::solution::{ItemBuffer, Picked};
+use crate::solution::Picked;
 use crate::world::World;
 use std::sync::Arc;
 
@@ -11,15 +12,8 @@ use std::sync::Arc;
 pub fn pick(world: &World, settings: &Settings, patch: u32) -> Picked {
     let mesh = &world.mesh;
     let shooter = &mesh.patches[patch as usize];
-    let shot = Shot {
-        world,
-        patch,
-        relative_radiosity: 1.0,
-        flux_share: if shooter.area > 0.0 { shooter.area / mesh.area() } else { 0.0 },
-        seed: settings.seed,
-        pass: u64::from(patch),
-        cancel: &Cancel::default(),
-    };
+    let never = Cancel::default();
+    let shot = Surfaces::new(world).expected_shot(world, patch as usize, settings.seed, &never);
     let mut form_factors = vec![0.0; mesh.elements.len()];
     let outcome = FormFactors::new(mesh, settings).toward(&shot, &mut form_factors);
     // Reciprocity turns what elements see of the patch into what the patch sees of them.
@@ -32,6 +26,6 @@ pub fn pick(world: &World, settings: &Settings, patch: u32) -> Picked {
         patch,
         form_factors: mesh.patches.iter().map(of).collect(),
         escaping: outcome.escaping,
-        item_buffer: Arc::new(ItemBuffer { resolution: 0, faces: Default::default() }),
+        item_buffer: Arc::new(Hemicubes::new(mesh, settings).item_buffer(world, shooter)),
     }
 }

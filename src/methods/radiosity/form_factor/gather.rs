@@ -1,10 +1,10 @@
 //! Form factors from all elements to one shooter, on all cores.
 
 use super::polygon::{Kernel, Shooter};
-use super::visibility::Sightline;
+use super::visibility::{Rays, Sightline};
 use super::{Shot, clamped, plane_tolerance};
 use crate::math::random::hash;
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, Patch};
 use crate::solution::Counters;
 use std::ops::Range;
 
@@ -21,12 +21,54 @@ struct Batch {
     elements: Range<u32>,
 }
 
-/// A shot as all receivers see it.
+/// A shot as receivers see it: a formula, times the share of shadow rays that arrive.
 pub struct Sight<'a> {
-    pub shot: &'a Shot<'a>,
-    pub kernel: Kernel,
-    pub shooter: Shooter,
-    pub sightline: Sightline<'a>,
+    shot: &'a Shot<'a>,
+    kernel: Kernel,
+    shooter: Shooter,
+    sightline: Sightline<'a>,
+    /// See [`plane_tolerance`].
+    tolerance: f32,
+}
+
+impl<'a> Sight<'a> {
+    /// `shadow_rays` are those for all the irradiance that is expected.
+    pub fn new(shot: &'a Shot<'a>, kernel: Kernel, shadow_rays: u32) -> Self {
+        let rays = Rays { most: shadow_rays, per_form_factor: f64::from(shadow_rays) * shot.relative_radiosity };
+        Self {
+            shot,
+            kernel,
+            shooter: Shooter::new(shot.shooter()),
+            sightline: Sightline::new(shot.world, shot.shooter(), rays),
+            tolerance: plane_tolerance(shot.world),
+        }
+    }
+
+    /// Whether some points of the receiver and the shooter face each other.
+    pub fn may_reach(&self, receiver: &Patch) -> bool {
+        self.shooter.out_of_sight(receiver, self.tolerance).is_none()
+    }
+
+    /// F in [0, 1] from element `index` of a patch that may be reached; counts the work.
+    pub fn form_factor(&self, patch: &Patch, index: usize, work: &mut Counters) -> f64 {
+        let mesh = &self.shot.world.mesh;
+        let element = &mesh.elements[index];
+        if element.exposed == 0.0 {
+            return 0.0;
+        }
+        let unoccluded = self.shooter.form_factor(self.kernel, mesh, element, patch.normal.as_dvec3());
+        let (bounded, is_cut) = clamped(unoccluded);
+        work.form_factors += 1;
+        work.clamped += u64::from(is_cut);
+        if bounded == 0.0 {
+            return 0.0;
+        }
+        let shift = hash(self.shot.seed, self.shot.pass, index as u64);
+        let (visible, rays) = self.sightline.visible_share(element, patch.normal, bounded, shift);
+        work.shadow_rays += u64::from(rays);
+        work.rays += u64::from(rays);
+        bounded * visible
+    }
 }
 
 impl Receivers {
@@ -69,37 +111,20 @@ fn gather(batches: &[Batch], sight: &Sight, form_factors: &mut [f64]) -> Counter
 
 fn gather_batch(batch: &Batch, sight: &Sight, form_factors: &mut [f64]) -> Counters {
     let mut work = Counters::default();
-    let Sight { shot, kernel, shooter, sightline } = sight;
-    if shot.cancel.is_requested() {
+    if sight.shot.cancel.is_requested() {
         return work;
     }
-    let tolerance = plane_tolerance(shot.world);
     let first = batch.elements.start;
-    let mesh = &shot.world.mesh;
+    let mesh = &sight.shot.world.mesh;
     for patch in &mesh.patches[batch.patches.start as usize..batch.patches.end as usize] {
         let elements = patch.elements.start as usize..patch.elements.end as usize;
         let out = &mut form_factors[elements.start - first as usize..elements.end - first as usize];
-        if shooter.out_of_sight(patch, tolerance).is_some() {
+        if !sight.may_reach(patch) {
             out.fill(0.0);
             continue;
         }
-        let normal = patch.normal.as_dvec3();
         for (index, out) in elements.zip(out) {
-            let element = &mesh.elements[index];
-            *out = 0.0;
-            if element.exposed == 0.0 {
-                continue;
-            }
-            let (form_factor, is_cut) = clamped(shooter.form_factor(*kernel, mesh, element, normal));
-            work.form_factors += 1;
-            work.clamped += u64::from(is_cut);
-            if form_factor > 0.0 {
-                let shift = hash(shot.seed, shot.pass, index as u64);
-                let (visible, rays) = sightline.visible_share(element, patch.normal, form_factor, shift);
-                *out = form_factor * visible;
-                work.shadow_rays += u64::from(rays);
-                work.rays += u64::from(rays);
-            }
+            *out = sight.form_factor(patch, index, &mut work);
         }
     }
     work

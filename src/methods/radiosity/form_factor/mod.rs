@@ -6,6 +6,8 @@
 pub mod centroid;
 mod escape;
 mod gather;
+pub mod hemicube;
+mod hemicubes;
 mod polygon;
 mod rays;
 mod visibility;
@@ -16,9 +18,9 @@ use crate::methods::{FormFactorMethod, Settings};
 use crate::solution::{Counters, Zero};
 use crate::world::World;
 use gather::{Receivers, Sight};
+pub use hemicubes::Hemicubes;
 use polygon::{Kernel, Shooter};
 use rays::LightRays;
-use visibility::{Rays, Sightline};
 
 /// A patch about to shoot.
 pub struct Shot<'a> {
@@ -55,11 +57,17 @@ pub struct FormFactors {
     settings: Settings,
     receivers: Receivers,
     light_rays: LightRays,
+    hemicubes: Hemicubes,
 }
 
 impl FormFactors {
     pub fn new(mesh: &Mesh, settings: &Settings) -> Self {
-        Self { settings: *settings, receivers: Receivers::new(mesh), light_rays: LightRays::default() }
+        Self {
+            settings: *settings,
+            receivers: Receivers::new(mesh),
+            light_rays: LightRays::default(),
+            hemicubes: Hemicubes::new(mesh, settings),
+        }
     }
 
     /// Fills `form_factors`, one an element, with F from each element to the shooter, in [0, 1]. If cancelled, some keep
@@ -70,23 +78,13 @@ impl FormFactors {
             FormFactorMethod::Disc => self.estimate(shot, Kernel::Disc, form_factors),
             FormFactorMethod::Polygon => self.estimate(shot, Kernel::Polygon, form_factors),
             FormFactorMethod::Rays => self.light_rays.shoot(shot, self.settings.light_rays, form_factors),
-            FormFactorMethod::Hemicube => self.estimate(shot, Kernel::Polygon, form_factors),
+            FormFactorMethod::Hemicube => self.hemicubes.look(shot, self.settings.shadow_rays, form_factors),
         }
     }
 
     /// A formula, times the share of shadow rays that arrive.
     fn estimate(&self, shot: &Shot, kernel: Kernel, form_factors: &mut [f64]) -> Outcome {
-        let shooter = shot.shooter();
-        let rays = Rays {
-            most: self.settings.shadow_rays,
-            per_form_factor: f64::from(self.settings.shadow_rays) * shot.relative_radiosity,
-        };
-        let sight = Sight {
-            shot,
-            kernel,
-            shooter: Shooter::new(shooter),
-            sightline: Sightline::new(shot.world, shooter, rays),
-        };
+        let sight = Sight::new(shot, kernel, self.settings.shadow_rays);
         let mut counters = self.receivers.gather(&sight, form_factors);
         let (escaping, escape_rays) = escape::share(shot);
         counters.escape_rays += escape_rays;
