@@ -4,12 +4,14 @@
 #[path = "window/stage.rs"]
 mod stage;
 
+use egui::accesskit::Role;
 use egui::{Key, Modifiers, Rect, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lightwell::app::action::{Action, CameraMove};
 use lightwell::app::model::{Dialog, Look, Notice, PathPurpose};
 use lightwell::app::{Explorer, theme};
+use lightwell::choice::Choice;
 use lightwell::methods::Settings;
 use lightwell::scene::{FindingKind, Severity};
 use lightwell::viewport::{AdapterChoice, Gpu, View};
@@ -87,7 +89,7 @@ fn letters_and_digits_do_what_the_help_says() {
     assert_eq!(press(Key::F), [Action::Camera(CameraMove::Fit)]);
     let look = Look::default();
     assert_eq!(press(Key::W), [Action::SetLook(Look { wireframe: true, ..look })]);
-    for (digit, view) in [Key::Num1, Key::Num2, Key::Num3].into_iter().zip(View::ALL) {
+    for (digit, view) in [Key::Num1, Key::Num2, Key::Num3].into_iter().zip(View::ALL.iter().copied()) {
         assert_eq!(press(digit), [Action::SetLook(Look { view, ..look })]);
     }
     assert_eq!(key(Stage::empty(), Modifiers::COMMAND, Key::O), [Action::BrowseForScene]);
@@ -111,7 +113,7 @@ fn a_held_key_toggles_once() {
 
 #[test]
 fn keys_belong_to_a_field_while_it_is_edited() {
-    let mut harness = Stage::default().small();
+    let mut harness = Stage::default().window(LARGE);
     harness.get_by_label("Seed").click();
     harness.run();
     for pressed in [Key::Space, Key::R, Key::W, Key::Num1, Key::ArrowRight] {
@@ -214,9 +216,13 @@ fn without_a_scene_there_is_nothing_to_run_but_something_to_open() {
 #[test]
 fn the_view_bar_changes_the_look() {
     let look = Look::default();
-    for view in View::ALL {
-        assert_eq!(click(Stage::default(), view.label()), [Action::SetLook(Look { view, ..look })]);
+    for &view in View::ALL {
+        let mut harness = Stage::default().small();
+        harness.get_by_role_and_label(Role::Button, view.label()).click();
+        harness.run();
+        assert_eq!(harness.state().actions, [Action::SetLook(Look { view, ..look })]);
     }
+    assert_eq!(click(Stage::default(), "Ambient"), [Action::SetLook(Look { ambient: true, ..look })]);
     assert_eq!(click(Stage::default(), "Wireframe"), [Action::SetLook(Look { wireframe: true, ..look })]);
     assert_eq!(click(Stage::default(), "Shooter"), [Action::SetLook(Look { show_shooter: false, ..look })]);
 }

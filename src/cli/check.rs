@@ -57,7 +57,8 @@ fn table(rows: &[Row]) -> String {
     let mut text = String::new();
     for [verdict, case, quantity, expected, got, tolerance, guard] in &lines {
         let [v, c, q, e, g, t, _] = widths;
-        text += &format!("{verdict:v$}  {case:c$}  {quantity:q$}  {expected:>e$}  {got:>g$}  {tolerance:>t$}  {guard}\n");
+        text +=
+            &format!("{verdict:v$}  {case:c$}  {quantity:q$}  {expected:>e$}  {got:>g$}  {tolerance:>t$}  {guard}\n");
     }
     let [passed, failed, limits] = [Verdict::Pass, Verdict::Fail, Verdict::Limit].map(|verdict| count(rows, verdict));
     text + &format!("{} rows: {passed} pass, {failed} fail, {limits} known limits\n", rows.len())

@@ -92,6 +92,14 @@ pub enum CliError {
     PictureFormat { path: PathBuf },
     #[error("{failed} of {rows} rows fail")]
     Check { failed: usize, rows: usize },
+    #[error("there is no patch {patch}: the scene has {patches}, counted from 0")]
+    NoSuchPatch { patch: u32, patches: usize },
+    #[error("no patch is seen at {},{}", .at[0], .at[1])]
+    NothingPicked { at: [f32; 2] },
+    #[error("only {kept} bounces of light were kept, and the light of the emitters")]
+    NoSuchBounce { kept: usize },
+    #[error("there is nothing to draw yet: {0}")]
+    Missing(&'static str),
     #[error("cannot print")]
     Print(#[from] std::io::Error),
 }

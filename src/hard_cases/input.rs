@@ -11,38 +11,33 @@ use crate::world::World;
 use glam::DVec3;
 
 pub const CASES: &[Case] = &[
-    Case {
-        name: "empty-file",
-        about: "files without a face",
-        measure: empty_file,
-        scene: || None,
-    },
+    Case { name: "empty-file", about: "files without a face", measure: empty_file, scene: || None },
     Case {
         name: "not-a-number",
         about: "NaN and infinity in place of each number of a scene, one after the other",
         measure: not_a_number,
         scene: || lit_room().show("not-a-number"),
     },
-    Case {
-        name: "element-size",
-        about: "element sizes that no mesh can have",
-        measure: element_size,
-        scene: || None,
-    },
+    Case { name: "element-size", about: "element sizes that no mesh can have", measure: element_size, scene: || None },
 ];
 
 fn lit_room() -> Stage {
-    Stage::new()
-        .object("room", 0.5, 0.0)
-        .room(DVec3::ZERO, DVec3::ONE)
-        .object("lamp", 0.5, 1.0)
-        .level_down([0.3, 0.7], 0.9, [0.3, 0.7])
+    Stage::new().object("room", 0.5, 0.0).room(DVec3::ZERO, DVec3::ONE).object("lamp", 0.5, 1.0).level_down(
+        [0.3, 0.7],
+        0.9,
+        [0.3, 0.7],
+    )
 }
 
 fn empty_file(rows: &mut Rows) -> Result<(), Cancelled> {
     let files = ["", "# a comment\n", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", "v 0 0 0\nf 1 1 1\n", "f 1 2 3\n"];
     let opened = files.iter().filter(|text| Scene::from_text("empty", text, "").is_ok()).count();
-    rows.check("files without a face that open", opened as f64, exactly(0.0), "a scene without a face is refused, with the reason");
+    rows.check(
+        "files without a face that open",
+        opened as f64,
+        exactly(0.0),
+        "a scene without a face is refused, with the reason",
+    );
     Ok(())
 }
 
@@ -74,9 +69,13 @@ fn not_a_number(rows: &mut Rows) -> Result<(), Cancelled> {
             let light = steps(&world, &Settings { shadow_rays: 4, ..Settings::default() }, 4, rows.cancel)?.light;
             broken += light.radiosity.iter().filter(|radiosity| !radiosity.is_finite()).count();
         }
-        println!("{tried} tried");
         let guard = "every number is checked where it is read, and what is none is mended or left out";
-        rows.check(format!("elements that are no number, {tried} scenes with one {number}"), broken as f64, exactly(0.0), guard);
+        rows.check(
+            format!("elements that are no number, {tried} scenes with one {number}"),
+            broken as f64,
+            exactly(0.0),
+            guard,
+        );
     }
     Ok(())
 }
@@ -87,6 +86,11 @@ fn element_size(rows: &mut Rows) -> Result<(), Cancelled> {
         let settings = MeshSettings { element_size: Some(size), ..MeshSettings::default() };
         World::build(lit_room().open("room"), &settings, &Cancel::default()).is_ok()
     });
-    rows.check("element sizes out of range that are taken", built.count() as f64, exactly(0.0), "sizes are checked before anything is cut");
+    rows.check(
+        "element sizes out of range that are taken",
+        built.count() as f64,
+        exactly(0.0),
+        "sizes are checked before anything is cut",
+    );
     Ok(())
 }

@@ -36,11 +36,11 @@ fn furnace(reflectance: f64) -> Stage {
 }
 
 fn lamp(radiance: f64) -> Stage {
-    Stage::new()
-        .object("room", 0.5, 0.0)
-        .room(DVec3::ZERO, DVec3::ONE)
-        .object("lamp", 0.0, radiance)
-        .level_down([0.3, 0.7], 0.9, [0.2, 0.6])
+    Stage::new().object("room", 0.5, 0.0).room(DVec3::ZERO, DVec3::ONE).object("lamp", 0.0, radiance).level_down(
+        [0.3, 0.7],
+        0.9,
+        [0.2, 0.6],
+    )
 }
 
 /// More steps than any solver should need here: one that diverges ends, too.
@@ -49,12 +49,10 @@ const MOST_STEPS: u64 = 60_000;
 /// Mean B of a scene with one patch a polygon, W/m², when what is left is a millionth of it.
 fn mean_radiosity(scene: Scene, solver: Solver, rows: &Rows) -> Result<f64, Cancelled> {
     let world = world(scene, single(1.001), rows.cancel)?;
-    let reflectance = world.scene.materials[0].diffuse.x;
     // Unshot flux brings 1 / (1 − ρ) of itself, and the result is larger by the same factor than what is emitted.
     let settings = Settings { solver, unshot_limit: 1e-6, ..Settings::default() };
     let solution = steps(&world, &settings, MOST_STEPS, rows.cancel)?;
     let sum: f64 = solution.light.radiosity.iter().map(|radiosity| f64::from(radiosity.x)).sum();
-    println!("{reflectance} {solver:?} steps {}", solution.steps);
     Ok(sum / solution.light.radiosity.len() as f64)
 }
 
@@ -82,7 +80,12 @@ fn white_room(rows: &mut Rows) -> Result<(), Cancelled> {
         let scene = furnace(stated).open("furnace");
         let warnings = scene.findings.iter().filter(|f| f.kind == FindingKind::ReflectanceClamped).count();
         let got = mean_radiosity(scene, Solver::GaussSeidel, rows)?;
-        rows.check(format!("B, W/m², where the file says ρ = {stated}"), got, about(expected, 1.1e-6 * expected), guard);
+        rows.check(
+            format!("B, W/m², where the file says ρ = {stated}"),
+            got,
+            about(expected, 1.1e-6 * expected),
+            guard,
+        );
         rows.check(format!("warnings, where the file says ρ = {stated}"), warnings as f64, exactly(1.0), guard);
     }
     Ok(())
@@ -96,10 +99,16 @@ fn emission(rows: &mut Rows) -> Result<(), Cancelled> {
     let reference = light(1.0)?;
     for radiance in [1e-9, 1e-3, 1e3, 1e9] {
         let got = light(radiance)?;
-        let apart = reference.iter().zip(&got).map(|(one, got)| (f64::from(got.x) / radiance / f64::from(one.x) - 1.0).abs());
+        let apart =
+            reference.iter().zip(&got).map(|(one, got)| (f64::from(got.x) / radiance / f64::from(one.x) - 1.0).abs());
         let guard = "light is counted in shares of what is emitted: no limit is in watts";
         // The radiance and both irradiances are rounded to single precision.
-        rows.check(format!("relative difference of light, radiance {radiance:.0e}"), apart.fold(0.0, f64::max), about(0.0, 3e-7), guard);
+        rows.check(
+            format!("relative difference of light, radiance {radiance:.0e}"),
+            apart.fold(0.0, f64::max),
+            about(0.0, 3e-7),
+            guard,
+        );
     }
     Ok(())
 }

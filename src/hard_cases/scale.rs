@@ -65,7 +65,12 @@ fn scaled(rows: &mut Rows) -> Result<(), Cancelled> {
     for scale in [1e-6, 1e-3, 1e3, 1e6] {
         let got = light(room(scale, DVec3::ZERO).open("room"), scale, rows)?;
         let guard = "rays are traced in a frame of fixed size, and every other threshold is relative";
-        rows.check(format!("mean difference of light, size {scale:.0e}"), difference(&reference, &got), about(0.0, SAME), guard);
+        rows.check(
+            format!("mean difference of light, size {scale:.0e}"),
+            difference(&reference, &got),
+            about(0.0, SAME),
+            guard,
+        );
     }
     Ok(())
 }
@@ -75,7 +80,12 @@ fn moved(rows: &mut Rows) -> Result<(), Cancelled> {
         let reference = light(room(scale, DVec3::ZERO).open("room"), scale, rows)?;
         let got = light(room(scale, FAR * scale).open("room"), scale, rows)?;
         let guard = "scenes far from the origin are moved there before numbers are rounded to single precision";
-        rows.check(format!("mean difference of light, size {scale:.0e}"), difference(&reference, &got), about(0.0, SAME), guard);
+        rows.check(
+            format!("mean difference of light, size {scale:.0e}"),
+            difference(&reference, &got),
+            about(0.0, SAME),
+            guard,
+        );
     }
     Ok(())
 }
