@@ -1,5 +1,6 @@
 //! The command line: the same code as the window, without one. One file a command.
 
+mod check;
 mod inspect;
 pub mod picture;
 mod probe;
@@ -47,6 +48,8 @@ pub enum Command {
     Probe(probe::Options),
     /// Print what a scene holds and what was wrong with it
     Inspect(inspect::Options),
+    /// Run the gallery of hard cases and print how each went
+    Check(check::Options),
     /// List the built-in scenes
     Scenes(scenes::Options),
 }
@@ -60,6 +63,7 @@ impl Command {
             Self::Solve(options) => solve::run(options),
             Self::Probe(options) => probe::run(options),
             Self::Inspect(options) => inspect::run(options),
+            Self::Check(options) => check::run(options),
             Self::Scenes(options) => scenes::run(options),
         }
     }
@@ -86,6 +90,8 @@ pub enum CliError {
     Encode { path: PathBuf, source: Box<dyn std::error::Error + Send + Sync> },
     #[error("{path} is neither .png nor .exr")]
     PictureFormat { path: PathBuf },
+    #[error("{failed} of {rows} rows fail")]
+    Check { failed: usize, rows: usize },
     #[error("there is no patch {patch}: the scene has {patches}, counted from 0")]
     NoSuchPatch { patch: u32, patches: usize },
     #[error("no patch is seen at {},{}", .at[0], .at[1])]

@@ -46,7 +46,8 @@ pub fn turn(scene: &mut Scene, tracer: &Tracer) -> Vec<Finding> {
     fronts.into_iter().map(&mut turn).collect()
 }
 
-/// The share of rays from a side that meet something which is neither right before it nor an emitter's front.
+/// The share of rays from a side that meet something which is neither right before it nor an emitter. In a room that glows
+/// all over, neither the inside nor the outside counts.
 fn open_view(scene: &Scene, surfaces: &Surfaces, tracer: &Tracer, side: usize) -> f32 {
     let near = NEAR * (surfaces.area(side) as f32).sqrt();
     let mut stream = Stream::new(0, LOOK_PASS, side as u64);
@@ -54,8 +55,7 @@ fn open_view(scene: &Scene, surfaces: &Surfaces, tracer: &Tracer, side: usize) -
         let from = surfaces.place(side, tracer, &mut stream);
         surfaces.bounce(&from, tracer, &mut stream).is_some_and(|place| {
             let material = &scene.materials[scene.polygons[place.side / 2].material as usize];
-            let shines_back = material.is_emitter() && place.side.is_multiple_of(2);
-            !shines_back && from.point.distance(place.point) > near
+            !material.is_emitter() && from.point.distance(place.point) > near
         })
     });
     open.count() as f32 / LOOKS as f32

@@ -1,17 +1,11 @@
-//! Integrals over planar polygons, in double precision.
+//! Form factor from a point to a polygon.
 
+use super::clip_above;
 use glam::DVec3;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 /// The most corners that a polygon may have in [`form_factor`].
 pub const MAX_CORNERS: usize = 4;
-
-/// Area times unit normal; corners run counter-clockwise round the normal (Newell's method, kept near the origin by
-/// measuring from the first corner).
-pub fn vector_area(corners: &[DVec3]) -> DVec3 {
-    let first = corners[0];
-    corners.windows(2).map(|pair| (pair[0] - first).cross(pair[1] - first)).sum::<DVec3>() * 0.5
-}
 
 /// Form factor from a small surface at `point` with unit `normal` to a polygon, F in [0, 1]: the share of the flux
 /// that leaves the point and arrives, and at once the irradiance there per radiosity of the polygon.
@@ -22,7 +16,7 @@ pub fn vector_area(corners: &[DVec3]) -> DVec3 {
 /// loses half its digits for short edges.
 pub fn form_factor(point: DVec3, normal: DVec3, corners: &[DVec3]) -> f64 {
     let mut clipped = [DVec3::ZERO; MAX_CORNERS + 1];
-    let count = clip_at_horizon(point, normal, corners, &mut clipped);
+    let count = clip_above(point, normal, corners, &mut clipped);
     if count < 3 {
         return 0.0;
     }
@@ -56,40 +50,10 @@ fn angle_over_sine(squared_sine: f64, cosine: f64) -> f64 {
 const ARC_TANGENT: [f64; 9] =
     [1.0, -1.0 / 3.0, 1.0 / 5.0, -1.0 / 7.0, 1.0 / 9.0, -1.0 / 11.0, 1.0 / 13.0, -1.0 / 15.0, 1.0 / 17.0];
 
-/// Copies the part of a convex polygon above the plane through `point` into `clipped`, relative to `point`, and
-/// returns its number of corners (Sutherland, Hodgman 1974; one plane adds at most one corner).
-fn clip_at_horizon(point: DVec3, normal: DVec3, corners: &[DVec3], clipped: &mut [DVec3; MAX_CORNERS + 1]) -> usize {
-    let mut count = 0;
-    let mut from = corners[corners.len() - 1] - point;
-    let mut from_height = normal.dot(from);
-    for &corner in corners {
-        let to = corner - point;
-        let to_height = normal.dot(to);
-        if (from_height < 0.0) != (to_height < 0.0) {
-            clipped[count] = from + (to - from) * (from_height / (from_height - to_height));
-            count += 1;
-        }
-        if to_height >= 0.0 {
-            clipped[count] = to;
-            count += 1;
-        }
-        (from, from_height) = (to, to_height);
-    }
-    count
-}
-
-/// Form factor between two equal parallel rectangles `a` × `b`, face to face at distance `c` (Howell C-11).
-pub fn parallel_rectangles(a: f64, b: f64, c: f64) -> f64 {
-    let (x, y) = (a / c, b / c);
-    let (x1, y1) = ((1.0 + x * x).sqrt(), (1.0 + y * y).sqrt());
-    let logarithm = (x1 * y1 / (1.0 + x * x + y * y).sqrt()).ln();
-    let angles = x * y1 * (x / y1).atan() + y * x1 * (y / x1).atan() - x * x.atan() - y * y.atan();
-    2.0 / (PI * x * y) * (logarithm + angles)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::polygon::vector_area;
 
     /// A unit square in the plane z = `height`, facing down.
     fn square_above(height: f64) -> [DVec3; 4] {
@@ -168,20 +132,5 @@ mod tests {
             assert!((got / exact - 1.0).abs() < 1e-12, "{exact}: {got}");
         }
         assert_eq!((angle_over_sine(0.0, 2.0), angle_over_sine(0.0, -1.0)), (0.5, 0.0));
-    }
-
-    #[test]
-    fn vector_area_keeps_its_digits_far_from_the_origin() {
-        let far = square_above(0.0).map(|corner| corner + DVec3::splat(1e8));
-        assert!((vector_area(&far) - DVec3::NEG_Z).length() < 1e-7);
-    }
-
-    #[test]
-    fn parallel_rectangles_have_the_published_values() {
-        for (gap, expected) in
-            [(10.0, 0.003_162_056_838_757_6), (1.0, 0.199_824_895_698_387), (0.01, 0.980_416_602_925_973)]
-        {
-            assert!((parallel_rectangles(1.0, 1.0, gap) - expected).abs() < 1e-13);
-        }
     }
 }

@@ -1,0 +1,57 @@
+//! Integrals over planar polygons, in double precision: areas, and form factors without regard to what stands between.
+//!
+//! [`form_factor`] is that of a point, [`area_form_factor`] the one between two areas, both in closed form; [`Plate`]s are made
+//! ready for many pairs. [`known`] has the form factors of a few shapes, to test by.
+
+mod contour;
+pub mod known;
+mod plate;
+mod point;
+
+pub use contour::area_form_factor;
+pub use known::parallel_rectangles;
+pub use plate::Plate;
+pub use point::{MAX_CORNERS, form_factor};
+
+use glam::DVec3;
+
+/// Area times unit normal; corners run counter-clockwise round the normal (Newell's method, kept near the origin by
+/// measuring from the first corner).
+pub fn vector_area(corners: &[DVec3]) -> DVec3 {
+    let first = corners[0];
+    corners.windows(2).map(|pair| (pair[0] - first).cross(pair[1] - first)).sum::<DVec3>() * 0.5
+}
+
+/// Copies the part of a convex polygon on the positive side of the plane through `point` into `clipped`, relative to `point`,
+/// and returns its number of corners (Sutherland, Hodgman 1974; one plane adds at most one corner).
+fn clip_above(point: DVec3, normal: DVec3, corners: &[DVec3], clipped: &mut [DVec3]) -> usize {
+    let mut count = 0;
+    let mut from = corners[corners.len() - 1] - point;
+    let mut from_height = normal.dot(from);
+    for &corner in corners {
+        let to = corner - point;
+        let to_height = normal.dot(to);
+        if (from_height < 0.0) != (to_height < 0.0) {
+            clipped[count] = from + (to - from) * (from_height / (from_height - to_height));
+            count += 1;
+        }
+        if to_height >= 0.0 {
+            clipped[count] = to;
+            count += 1;
+        }
+        (from, from_height) = (to, to_height);
+    }
+    count
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn vector_area_keeps_its_digits_far_from_the_origin() {
+        let square = [(0.0, 0.0), (0.0, 1.0), (1.0, 1.0), (1.0, 0.0)].map(|(x, y)| DVec3::new(x, y, 0.0));
+        let far = square.map(|corner| corner + DVec3::splat(1e8));
+        assert!((vector_area(&far) - DVec3::NEG_Z).length() < 1e-7);
+    }
+}
