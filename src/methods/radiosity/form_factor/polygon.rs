@@ -9,7 +9,7 @@ use glam::{DVec3, Vec3A};
 /// A receiver nearer to the shooter than this many of its own radii is integrated over, not looked at in its centre.
 const NEAR_RADII: f64 = 4.0;
 /// Relative error of that integral: far below the noise of shadow rays.
-const TOLERANCE: f64 = 1e-4;
+pub(super) const TOLERANCE: f64 = 1e-4;
 
 /// The formula.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
