@@ -4,6 +4,7 @@
 #[path = "window/stage.rs"]
 mod stage;
 
+use egui::accesskit::Role;
 use egui::{Key, Modifiers, Rect, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
@@ -112,7 +113,7 @@ fn a_held_key_toggles_once() {
 
 #[test]
 fn keys_belong_to_a_field_while_it_is_edited() {
-    let mut harness = Stage::default().small();
+    let mut harness = Stage::default().window(LARGE);
     harness.get_by_label("Seed").click();
     harness.run();
     for pressed in [Key::Space, Key::R, Key::W, Key::Num1, Key::ArrowRight] {
@@ -216,8 +217,12 @@ fn without_a_scene_there_is_nothing_to_run_but_something_to_open() {
 fn the_view_bar_changes_the_look() {
     let look = Look::default();
     for &view in View::ALL {
-        assert_eq!(click(Stage::default(), view.label()), [Action::SetLook(Look { view, ..look })]);
+        let mut harness = Stage::default().small();
+        harness.get_by_role_and_label(Role::Button, view.label()).click();
+        harness.run();
+        assert_eq!(harness.state().actions, [Action::SetLook(Look { view, ..look })]);
     }
+    assert_eq!(click(Stage::default(), "Ambient"), [Action::SetLook(Look { ambient: true, ..look })]);
     assert_eq!(click(Stage::default(), "Wireframe"), [Action::SetLook(Look { wireframe: true, ..look })]);
     assert_eq!(click(Stage::default(), "Shooter"), [Action::SetLook(Look { show_shooter: false, ..look })]);
 }

@@ -4,7 +4,7 @@ use super::action::CameraMove;
 use super::model::Look;
 use crate::camera::{Camera, Flight};
 use crate::solution::{Picked, Solution};
-use crate::viewport::{Frame, Gpu, Light, Viewport, automatic_exposure};
+use crate::viewport::{Frame, Gpu, Light, Viewport, automatic_exposure, pick_patch};
 use crate::worker::Snapshot;
 use crate::world::World;
 use eframe::egui_wgpu::{Callback, CallbackResources, CallbackTrait, RenderState, ScreenDescriptor};
@@ -132,6 +132,13 @@ impl ViewportPane {
             exposure_ev: self.exposure_ev(look),
             tone: look.tone,
         })
+    }
+
+    /// The patch that is seen at a point, in shares of the picture's width and height from the top left.
+    pub fn patch_at(&self, at: Vec2) -> Option<u32> {
+        let (world, camera) = (self.world.as_ref()?, self.camera.as_ref()?);
+        let pixel = at * Vec2::new(self.size[0] as f32, self.size[1] as f32);
+        pick_patch(world, camera, pixel.into(), self.size)
     }
 
     /// The world and the light on show.

@@ -1,17 +1,22 @@
 //! A model made up for the panels, without a worker or a graphics adapter, and the window that shows it.
 
-use egui::{Rect, Vec2};
+use egui::{Rect, TextureHandle, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::NodeT;
 use lightwell::app::action::Action;
-use lightwell::app::model::{Dialog, FrameTime, Look, Model, Notice, SceneFacts, Theme};
+use lightwell::app::chart::Chart;
+use lightwell::app::diagrams::MatrixTexture;
+use lightwell::app::model::{Dialog, FrameTime, Look, LowerPanel, Model, Notice, SceneFacts, Theme};
+use lightwell::app::patch::PatchFacts;
 use lightwell::app::{panels, theme};
 use lightwell::math::rgb::Rgb64;
 use lightwell::methods::Settings;
 use lightwell::scene::{Finding, FindingKind, Severity};
 use lightwell::solution::{Closure, Counters, Energy, Solution};
-use lightwell::worker::Phase;
+use lightwell::viewport::Legend;
+use lightwell::worker::{CheckReport, Curve, Phase};
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::Duration;
 
 /// What a model borrows, and the wishes that came of it.
@@ -24,6 +29,15 @@ pub struct Stage {
     pub error: Option<String>,
     pub look: Look,
     pub theme: Theme,
+    pub lower: Option<LowerPanel>,
+    pub chart: Chart,
+    pub missing: Option<&'static str>,
+    pub legend: Option<Legend>,
+    pub matrix: Option<MatrixTexture>,
+    pub item_buffer: Option<TextureHandle>,
+    pub checks: Option<CheckReport>,
+    pub patch: Option<PatchFacts<'static>>,
+    pub curves: Vec<Arc<Curve>>,
     pub notices: Vec<Notice>,
     pub dialog: Option<Dialog>,
     pub recent: Vec<PathBuf>,
@@ -42,6 +56,15 @@ impl Default for Stage {
             error: None,
             look: Look::default(),
             theme: Theme::Dark,
+            lower: None,
+            chart: Chart::default(),
+            missing: None,
+            legend: None,
+            matrix: None,
+            item_buffer: None,
+            checks: None,
+            patch: None,
+            curves: Vec::new(),
             notices: Vec::new(),
             dialog: None,
             recent: vec![PathBuf::from("/scenes/attic.obj")],
@@ -75,6 +98,15 @@ impl Stage {
             viewport_size: [952, 646],
             exposure_ev: 1.3,
             theme: self.theme,
+            lower: self.lower,
+            chart: self.chart,
+            missing: self.missing,
+            legend: self.legend.clone(),
+            matrix: self.matrix.as_ref(),
+            item_buffer: self.item_buffer.as_ref(),
+            checks: self.checks.as_ref(),
+            patch: self.patch,
+            curves: &self.curves,
             recent: &self.recent,
             notices: &self.notices,
             dialog: self.dialog.as_ref(),
@@ -120,7 +152,7 @@ pub fn solution() -> Solution {
         elapsed: Duration::from_millis(2_500),
         converged: false,
         energy: Energy { emitted: watts(10.0), absorbed: watts(6.0), unshot: watts(3.0), escaped: watts(1.0) },
-        closure: Closure { mean: 0.0123, worst: 0.07, reciprocity: 0.0 },
+        closure: Closure { mean: 0.0123, worst: 0.07, reciprocity: 2e-6 },
         counters: Counters { rays: 31_000_000, ..Counters::default() },
         shooter: None,
         ..Solution::default()

@@ -1,6 +1,6 @@
 //! How bright the picture is, and how its range is bent to fit the screen.
 
-use super::widgets::{Choice, labelled, row, segmented, slider};
+use super::widgets::{Segment, labelled, row, segmented, slider};
 use crate::app::action::Action;
 use crate::app::format;
 use crate::app::model::{Look, Model};
@@ -30,15 +30,15 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     if response.changed() {
         actions.push(Action::SetLook(Look { exposure: Exposure::Manual(ev), ..look }));
     }
-    let choice = |&tone: &ToneCurve| Choice {
+    let segment = |&tone: &ToneCurve| Segment {
         name: tone.label(),
         hover: tone.meaning(),
         shortcut: None,
         is_chosen: look.tone == tone,
     };
-    let choices: Vec<Choice> = ToneCurve::ALL.iter().map(choice).collect();
+    let segments: Vec<Segment> = ToneCurve::ALL.iter().map(segment).collect();
     let hover = "How the range of the light is bent to fit that of the screen";
-    if let Some(chosen) = row(ui, "Tone curve", hover, |ui, _| segmented(ui, 20.0 * UNIT, &choices)) {
+    if let Some(chosen) = row(ui, "Tone curve", hover, |ui, _| segmented(ui, 20.0 * UNIT, &segments)) {
         actions.push(Action::SetLook(Look { tone: ToneCurve::ALL[chosen], ..look }));
     }
 }
