@@ -1,6 +1,7 @@
 //! The command line: the same code as the window, without one. One file a command.
 
 mod check;
+mod form_factor;
 mod inspect;
 pub mod picture;
 mod probe;
@@ -46,6 +47,9 @@ pub enum Command {
     Solve(solve::Options),
     /// Solve a scene and print the irradiance at points
     Probe(probe::Options),
+    /// Compute the form factor between two polygons by every method
+    #[command(name = "formfactor")]
+    FormFactor(form_factor::Options),
     /// Print what a scene holds and what was wrong with it
     Inspect(inspect::Options),
     /// Run the gallery of hard cases and print how each went
@@ -62,6 +66,7 @@ impl Command {
             Self::Render(options) => render::run(options),
             Self::Solve(options) => solve::run(options),
             Self::Probe(options) => probe::run(options),
+            Self::FormFactor(options) => form_factor::run(options),
             Self::Inspect(options) => inspect::run(options),
             Self::Check(options) => check::run(options),
             Self::Scenes(options) => scenes::run(options),
@@ -90,6 +95,8 @@ pub enum CliError {
     Encode { path: PathBuf, source: Box<dyn std::error::Error + Send + Sync> },
     #[error("{path} is neither .png nor .exr")]
     PictureFormat { path: PathBuf },
+    #[error("{failed} of {rows} rows fail")]
+    Check { failed: usize, rows: usize },
     #[error("there is no patch {patch}: the scene has {patches}, counted from 0")]
     NoSuchPatch { patch: u32, patches: usize },
     #[error("no patch is seen at {},{}", .at[0], .at[1])]
@@ -98,8 +105,6 @@ pub enum CliError {
     NoSuchBounce { kept: usize },
     #[error("there is nothing to draw yet: {0}")]
     Missing(&'static str),
-    #[error("{failed} of {rows} rows fail")]
-    Check { failed: usize, rows: usize },
     #[error("cannot print")]
     Print(#[from] std::io::Error),
 }

@@ -17,9 +17,9 @@ use std::sync::Arc;
 pub const CASES: &[Case] = &[
     Case {
         name: "tiny-lamp",
-        about: "a lamp whose edge is a ten-thousandth of the room's",
+        about: "a lamp whose edge is a ten-thousandth of the room's, and its area a hundred-millionth",
         measure: tiny_lamp,
-        scene: || room().object("lamp", 0.0, 1e8).level_down(TINY, 0.9, TINY).show("tiny-lamp"),
+        scene: || room().object("lamp", 0.0, 1e8).level_down(TINY, 0.875, TINY).show("tiny-lamp"),
     },
     Case {
         name: "no-lamp",
@@ -41,7 +41,8 @@ pub const CASES: &[Case] = &[
     },
 ];
 
-const TINY: [f64; 2] = [0.49995, 0.50005];
+/// Numbers that single precision has, an eight-thousandth apart.
+const TINY: [f64; 2] = [0.5 - 1.0 / 16384.0, 0.5 + 1.0 / 16384.0];
 const WIDE: [f64; 2] = [0.3, 0.7];
 
 fn room() -> Stage {
@@ -57,11 +58,11 @@ fn triangle() -> Stage {
 }
 
 fn tiny_lamp(rows: &mut Rows) -> Result<(), Cancelled> {
-    let scene = room().object("lamp", 0.0, 1e8).level_down(TINY, 0.9, TINY).open("lamp");
+    let scene = room().object("lamp", 0.0, 1e8).level_down(TINY, 0.875, TINY).open("lamp");
     let world = world(scene, single(0.0626), rows.cancel)?;
     // The first shot is the lamp's.
     let solution = steps(&world, &Settings::default(), 1, rows.cancel)?;
-    let corners: Vec<DVec3> = level(TINY, 0.9, TINY).into_iter().rev().collect();
+    let corners: Vec<DVec3> = level(TINY, 0.875, TINY).into_iter().rev().collect();
     let exitance = PI * 1e8;
     let deviation = |i: usize| {
         let center = world.mesh.elements[i].center.as_dvec3();
@@ -72,14 +73,15 @@ fn tiny_lamp(rows: &mut Rows) -> Result<(), Cancelled> {
     let guard = "shadow rays are aimed at the lamp, and form factors need no ray to find it";
     // The row is scaled to close, by less than what its closure says; centres agree to rounding.
     let tolerance = solution.closure.worst + 1e-4;
-    println!("tiny lamp {:?} area {}", solution.closure, world.mesh.area());
     rows.check(
         "largest deviation of light on the floor",
         floor.map(deviation).fold(f64::NAN, f64::max),
         about(0.0, tolerance),
         guard,
     );
-    rows.check("flux emitted, W", solution.energy.emitted.x, about(PI, 1e-3), "areas in double precision");
+    // M_e is in single precision.
+    let flux = exitance * (TINY[1] - TINY[0]).powi(2);
+    rows.check("flux emitted, W", solution.energy.emitted.x, about(flux, 1e-6), "areas in double precision");
     Ok(())
 }
 
@@ -88,7 +90,7 @@ fn no_lamp(rows: &mut Rows) -> Result<(), Cancelled> {
     let warnings = scene.findings.iter().filter(|finding| finding.kind == FindingKind::NoEmitter).count();
     let world = world(scene, single(0.26), rows.cancel)?;
     let solution = solve(&world, &Settings::default(), rows.cancel)?;
-    let guard = "no shares of an emitted flux of 0 are taken";
+    let guard = "a run in which nothing is unshot has converged before its first shot";
     let lit = solution.light.radiosity.iter().filter(|radiosity| **radiosity != Rgb::ZERO).count();
     rows.check("elements that are not black", lit as f64, exactly(0.0), guard);
     rows.check("shots", solution.steps as f64, exactly(0.0), guard);
@@ -102,7 +104,7 @@ fn turned_lamp(rows: &mut Rows) -> Result<(), Cancelled> {
         let solution = solve(&world, &Settings::default(), rows.cancel)?;
         Ok((world, solution))
     };
-    let (_, right) = light(room().object("lamp", 0.5, 1.0).level_down(WIDE, 0.99, WIDE))?;
+    let (right_world, right) = light(room().object("lamp", 0.5, 1.0).level_down(WIDE, 0.99, WIDE))?;
     let (world, turned) = light(turned())?;
     let guard = "an emitter that sees only what stands right before it, and has the room behind it, is turned";
     let warnings = world.scene.findings.iter().filter(|finding| finding.kind == FindingKind::EmitterTurned).count();
@@ -111,10 +113,9 @@ fn turned_lamp(rows: &mut Rows) -> Result<(), Cancelled> {
         let floor = elements_of(world, "room").filter(|&i| world.mesh.elements[i].center.y < 1e-3);
         floor.map(|i| world.mesh.elements[i].area * f64::from(solution.light.irradiance[i].x)).sum::<f64>()
     };
-    println!("floor {} {}", floor(&world, &right), floor(&world, &turned));
     rows.check(
         "flux on the floor over that of a lamp hung right",
-        floor(&world, &turned) / floor(&world, &right),
+        floor(&world, &turned) / floor(&right_world, &right),
         about(1.0, 5e-3),
         guard,
     );

@@ -8,7 +8,6 @@ use crate::mesh::MeshSettings;
 use crate::methods::Settings;
 use crate::scene::Scene;
 use crate::world::World;
-use glam::DVec3;
 
 pub const CASES: &[Case] = &[
     Case { name: "empty-file", about: "files without a face", measure: empty_file, scene: || None },
@@ -16,13 +15,13 @@ pub const CASES: &[Case] = &[
         name: "not-a-number",
         about: "NaN and infinity in place of each number of a scene, one after the other",
         measure: not_a_number,
-        scene: || lit_room().show("not-a-number"),
+        scene: || lamp_over_floor().show("not-a-number"),
     },
     Case { name: "element-size", about: "element sizes that no mesh can have", measure: element_size, scene: || None },
 ];
 
-fn lit_room() -> Stage {
-    Stage::new().object("room", 0.5, 0.0).room(DVec3::ZERO, DVec3::ONE).object("lamp", 0.5, 1.0).level_down(
+fn lamp_over_floor() -> Stage {
+    Stage::new().object("floor", 0.5, 0.0).level_up([0.0, 1.0], 0.0, [0.0, 1.0]).object("lamp", 0.5, 1.0).level_down(
         [0.3, 0.7],
         0.9,
         [0.3, 0.7],
@@ -56,7 +55,7 @@ fn spoiled<'a>(text: &'a str, number: &'a str) -> impl Iterator<Item = String> +
 }
 
 fn not_a_number(rows: &mut Rows) -> Result<(), Cancelled> {
-    let stage = lit_room();
+    let stage = lamp_over_floor();
     let (obj, mtl) = stage.text();
     for number in ["nan", "inf", "-1e39"] {
         let objs = spoiled(obj, number).map(|obj| Scene::from_text("spoiled", &obj, mtl));
@@ -69,7 +68,6 @@ fn not_a_number(rows: &mut Rows) -> Result<(), Cancelled> {
             let light = steps(&world, &Settings { shadow_rays: 4, ..Settings::default() }, 4, rows.cancel)?.light;
             broken += light.radiosity.iter().filter(|radiosity| !radiosity.is_finite()).count();
         }
-        println!("{tried} tried");
         let guard = "every number is checked where it is read, and what is none is mended or left out";
         rows.check(
             format!("elements that are no number, {tried} scenes with one {number}"),
@@ -85,7 +83,7 @@ fn element_size(rows: &mut Rows) -> Result<(), Cancelled> {
     let sizes = [f32::NAN, f32::INFINITY, 0.0, -1.0, 1e-30];
     let built = sizes.iter().filter(|&&size| {
         let settings = MeshSettings { element_size: Some(size), ..MeshSettings::default() };
-        World::build(lit_room().open("room"), &settings, &Cancel::default()).is_ok()
+        World::build(lamp_over_floor().open("room"), &settings, &Cancel::default()).is_ok()
     });
     rows.check(
         "element sizes out of range that are taken",

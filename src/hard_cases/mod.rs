@@ -17,7 +17,7 @@ mod scale;
 mod solvers;
 mod stage;
 
-pub use row::{Row, Rows, Verdict};
+pub use row::{Expected, Row, Rows, Verdict, about, exactly};
 
 use crate::cancel::{Cancel, Cancelled};
 use crate::scene::Scene;

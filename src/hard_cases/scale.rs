@@ -42,7 +42,7 @@ fn room(scale: f64, shift: DVec3) -> Stage {
 /// Irradiance of each element, W/m².
 fn light(scene: Scene, scale: f64, rows: &Rows) -> Result<Vec<Rgb>, Cancelled> {
     // No edge is a whole number of elements long, so that rounding cannot change their number.
-    let mesh = MeshSettings { element_size: Some((0.067 * scale) as f32), ..MeshSettings::default() };
+    let mesh = MeshSettings { element_size: Some((0.11 * scale) as f32), ..MeshSettings::default() };
     let world = world(scene, mesh, rows.cancel)?;
     let settings = Settings { unshot_limit: 1e-2, shadow_rays: 16, ..Settings::default() };
     Ok(solve(&world, &settings, rows.cancel)?.light.irradiance)

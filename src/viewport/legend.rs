@@ -56,3 +56,22 @@ impl Legend {
         colour(self.share(value))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_scale_ends_at_the_largest_and_has_the_powers_of_ten_between_its_ends() {
+        let legend = Legend::of_form_factors("", [0.0, 0.03, 0.2].into_iter()).expect("a scale");
+        assert_eq!((legend.low, legend.high), (0.2e-4, 0.2));
+        assert_eq!(legend.ticks, [1e-4, 1e-3, 1e-2, 1e-1]);
+        assert_eq!([0.0, 1e-9, 0.2e-4, 0.2, 1.0].map(|value| legend.share(value)), [0.0, 0.0, 0.0, 1.0, 1.0]);
+        assert!((legend.share(0.02) - 0.75).abs() < 1e-6, "one of four decades below the largest");
+    }
+
+    #[test]
+    fn zeros_alone_have_no_scale() {
+        assert_eq!(Legend::of_form_factors("", [0.0, 0.0].into_iter()), None);
+    }
+}

@@ -30,6 +30,8 @@ fn nothing_is_drawn_again_that_has_not_changed() {
         turned,
         frame,
         Frame { view: View::Unshot, ..frame },
+        Frame { ambient: true, ..frame },
+        Frame { bounce: 1, ..frame },
         Frame { wireframe: true, ..frame },
         Frame { show_shooter: true, ..frame },
         Frame { size: [64, 64], ..frame },

@@ -3,7 +3,9 @@
 mod device;
 mod exposure;
 mod outlines;
+mod picking;
 mod radiance;
+mod views;
 
 use glam::{Vec2, Vec3};
 use lightwell::camera::Camera;
@@ -64,7 +66,11 @@ fn square() -> Arc<World> {
 }
 
 fn build(scene: Scene, element_size: f32) -> Arc<World> {
-    let settings = MeshSettings { element_size: Some(element_size), ..MeshSettings::default() };
+    build_in_patches(scene, element_size, MeshSettings::default().elements_per_patch_edge)
+}
+
+fn build_in_patches(scene: Scene, element_size: f32, elements_per_patch_edge: u32) -> Arc<World> {
+    let settings = MeshSettings { element_size: Some(element_size), elements_per_patch_edge };
     Arc::new(World::build(scene, &settings, &Cancel::default()).expect("a world"))
 }
 
