@@ -1,6 +1,7 @@
 //! The command line: the same code as the window, without one. One file a command.
 
 mod check;
+mod form_factor;
 mod inspect;
 pub mod picture;
 mod probe;
@@ -46,6 +47,9 @@ pub enum Command {
     Solve(solve::Options),
     /// Solve a scene and print the irradiance at points
     Probe(probe::Options),
+    /// Compute the form factor between two polygons by every method
+    #[command(name = "formfactor")]
+    FormFactor(form_factor::Options),
     /// Print what a scene holds and what was wrong with it
     Inspect(inspect::Options),
     /// Run the gallery of hard cases and print how each went
@@ -62,6 +66,7 @@ impl Command {
             Self::Render(options) => render::run(options),
             Self::Solve(options) => solve::run(options),
             Self::Probe(options) => probe::run(options),
+            Self::FormFactor(options) => form_factor::run(options),
             Self::Inspect(options) => inspect::run(options),
             Self::Check(options) => check::run(options),
             Self::Scenes(options) => scenes::run(options),

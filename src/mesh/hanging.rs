@@ -87,7 +87,7 @@ impl Ground<'_> {
         self.position(edge.ends[1]) - self.position(edge.ends[0])
     }
 
-    /// All vertices of loose edges that lie on others, in the order of edges.
+    /// All vertices of loose edges that lie on others of a smooth surface, in the order of edges.
     fn touches(&self, cancel: &Cancel) -> Result<Vec<Touch>, Cancelled> {
         let mut vertices: Vec<u32> = self.edges.iter().flat_map(|edge| edge.ends).collect();
         vertices.sort_unstable();
@@ -113,11 +113,14 @@ impl Ground<'_> {
         let margin = Vec3::splat(2.0 * tolerance as f32);
         let region = Bounds { min: ends[0].min(ends[1]) - margin, max: ends[0].max(ends[1]) + margin };
         tree.visit(&region, &mut |vertex| {
+            if !self.surfaces[vertex as usize].is_smooth_with(&edge.surface) || edge.ends.contains(&vertex) {
+                return;
+            }
             let to = self.position(vertex) - start;
             let distance = to.dot(along) / length;
             let is_on_line = (to - along * (distance / length)).length() <= tolerance;
             let is_between = distance >= -tolerance && distance <= length + tolerance;
-            if !is_on_line || !is_between || edge.ends.contains(&vertex) {
+            if !is_on_line || !is_between {
                 return;
             }
             let at = match distance {
@@ -160,14 +163,13 @@ impl Ground<'_> {
         for touch in touches.iter().filter(|touch| touch.at > 0.0 && touch.at < 1.0) {
             let (vertex, edge) = (same(touch.vertex), &self.edges[touch.edge as usize]);
             let ends = edge.ends.map(same);
-            let is_smooth = self.surfaces[touch.vertex as usize].is_smooth_with(&edge.surface);
             let first = edges_at.partition_point(|&(at, _)| at < vertex);
             let own = edges_at[first..].iter().take_while(|&&(at, _)| at == vertex);
             let leads = |&(_, own): &(u32, u32)| {
                 let own = &self.edges[own as usize];
                 edge.rank < own.rank || !self.are_parallel(edge, own)
             };
-            if is_smooth && !ends.contains(&vertex) && own.clone().all(leads) {
+            if !ends.contains(&vertex) && own.clone().all(leads) {
                 hosted.push((edge.rank, Hanging { vertex, ends, at: touch.at as f32 }));
             }
         }

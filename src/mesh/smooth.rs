@@ -8,7 +8,7 @@ impl Mesh {
     /// Mean of the elements round each vertex, by exposed area. Vertices are shared only where light is smooth, so nothing
     /// is averaged across a crease or between materials; what is covered does not count. A vertex that hangs on an edge
     /// hands its elements on to the ends of the edge and takes the value between theirs, so that what is interpolated
-    /// between the corners of elements is continuous across T-junctions too. `values` has one entry an element;
+    /// between the corners of elements does not crack at T-junctions (see [`super::Hanging`]). `values` has one entry an element;
     /// `vertex_values` is overwritten with one a vertex.
     pub fn smooth(&self, values: &[Rgb], vertex_values: &mut Vec<Rgb>) {
         vertex_values.clear();
@@ -50,5 +50,50 @@ impl Mesh {
             sums[from] += sum * (1.0 - hanging.at);
             sums[to] += sum * hanging.at;
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::{Element, Hanging};
+    use glam::{Vec3, Vec3A};
+
+    /// An element 2 m wide above an element of 0.5 m and one of 1.5 m, with a vertex between these on the edge of the first.
+    fn junction() -> Mesh {
+        let positions = [(0, 2), (4, 2), (0, 1), (4, 1), (1, 1), (0, 0), (1, 0), (4, 0)];
+        let element =
+            |corners, area| Element { corners, corner_count: 4, patch: 0, center: Vec3A::ZERO, area, exposed: 1.0 };
+        let mut mesh = Mesh {
+            elements: vec![element([2, 3, 1, 0], 2.0), element([5, 6, 4, 2], 0.5), element([6, 7, 3, 4], 1.5)],
+            vertices: positions.map(|(x, y)| Vec3::new(0.5 * x as f32, y as f32, 0.0)).to_vec(),
+            hanging: vec![Hanging { vertex: 4, ends: [2, 3], at: 0.25 }],
+            ..Mesh::default()
+        };
+        mesh.weigh_vertices();
+        mesh
+    }
+
+    #[test]
+    fn the_elements_round_a_hanging_vertex_count_at_the_ends_of_its_edge() {
+        let (mesh, values) = (junction(), [1.0, 2.0, 4.0].map(Rgb::splat));
+        let mut smoothed = Vec::new();
+        mesh.smooth(&values, &mut smoothed);
+        // At the left end 2 m² of 1, 0.5 m² of 2, and three quarters of what is round the vertex: 0.5 m² of 2 and 1.5 m² of 4.
+        let left = (2.0 + 1.0 + 0.75 * 7.0) / (2.0 + 0.5 + 0.75 * 2.0);
+        let right = (2.0 + 6.0 + 0.25 * 7.0) / (2.0 + 1.5 + 0.25 * 2.0);
+        assert_eq!([smoothed[2].x, smoothed[3].x], [left, right]);
+        assert_eq!(smoothed[4].x, 0.75 * left + 0.25 * right);
+    }
+
+    #[test]
+    fn smoothing_keeps_the_light() {
+        let (mesh, values) = (junction(), [1.0, 2.0, 4.0].map(Rgb::splat));
+        let mut smoothed = Vec::new();
+        mesh.smooth(&values, &mut smoothed);
+        let at_vertices: f32 = smoothed.iter().zip(&mesh.vertex_areas).map(|(value, area)| value.x * area).sum();
+        let of_elements: f64 =
+            mesh.elements.iter().zip(values).map(|(element, value)| 4.0 * element.area * f64::from(value.x)).sum();
+        assert!((f64::from(at_vertices) / of_elements - 1.0).abs() < 1e-6);
     }
 }

@@ -1,6 +1,7 @@
 //! The program as it is called from a shell.
 
 mod checking;
+mod form_factors;
 mod inspecting;
 mod probing;
 mod refusing;

@@ -198,6 +198,23 @@ fn check_tiles(tiles: &[[Vec2; 2]], scale: f32) {
 }
 
 #[test]
+fn vertices_that_only_rounding_tells_apart_are_one() {
+    let square =
+        |x: f32, z: f32| [(0.0, 1.0), (1.0, 1.0), (1.0, 0.0), (0.0, 0.0)].map(|(u, v)| Vec3::new(x + u, 0.0, z + v));
+    // Six decimals of coordinates of a metre.
+    let obj = Obj::new().object("squares", "glow").face(square(-1.0, 0.0)).face(square(5e-7, 5e-7));
+    let world = build_with(obj.open(), 0.25);
+    let mesh = &world.mesh;
+    assert_eq!(
+        mesh.hanging.iter().filter(|hanging| hanging.ends[0] == hanging.ends[1] && hanging.at == 0.0).count(),
+        5
+    );
+    // Values differ by at most 2 from one vertex to the next, which is 0.25 m away.
+    let gap = largest_gap(&world, &smoothed(mesh, uneven));
+    assert!(gap < 2.0 * 1e-6 / 0.25, "{gap}");
+}
+
+#[test]
 fn a_ring_of_t_junctions_is_opened() {
     for scale in [1e-6, 1.0, 1e6] {
         check_tiles(&pinwheel(), scale);

@@ -43,7 +43,7 @@ fn a_room_has_some_where_it_is_folded_inwards_at_any_scale_and_place() {
     for scale in [1e-6, 1e-3, 1.0, 1e3, 1e6] {
         for turn in turns {
             for (raised, has_occluders) in [(-0.1, false), (-1e-3, false), (0.0, false), (1e-3, true), (0.1, true)] {
-                for shift in [Vec3::ZERO, Vec3::new(100.0, -30.0, 50.0)] {
+                for shift in [Vec3::ZERO, Vec3::new(3.0, -2.0, 1.0)] {
                     let world = room_with_a_fold(raised, scale, shift, turn);
                     assert_eq!(world.has_occluders, has_occluders, "raised by {raised}, scaled by {scale}, at {shift}");
                 }

@@ -1,17 +1,20 @@
-//! Integrals over planar polygons, in double precision: areas, and form factors without regard to what stands between.
+//! Integrals over planar polygons, in double precision: areas and form factors.
 //!
 //! [`form_factor`] is that of a point, [`area_form_factor`] the one between two areas, both in closed form; [`Plate`]s are made
-//! ready for many pairs. [`known`] has the form factors of a few shapes, to test by.
+//! ready for many pairs. What [`visible_form_factor`] counts is in sight. [`known`] has the form factors of a few shapes, to test by.
 
 mod contour;
+mod gauss;
 pub mod known;
 mod plate;
 mod point;
+mod visible;
 
 pub use contour::area_form_factor;
 pub use known::parallel_rectangles;
 pub use plate::Plate;
 pub use point::{MAX_CORNERS, form_factor};
+pub use visible::{occluded_area_form_factor, visible_form_factor};
 
 use glam::DVec3;
 

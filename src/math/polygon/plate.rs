@@ -1,20 +1,10 @@
 //! Form factors between many pairs of triangles and quads: each is made ready once, and of each pair as much is computed as
 //! its distance calls for.
 
+use super::gauss::{GAUSS_2, GAUSS_3, GAUSS_4};
 use super::{contour, vector_area};
 use glam::DVec3;
 use std::f64::consts::PI;
-
-/// Abscissas and weights of Gauss-Legendre quadrature with 2, 3 and 4 points on [0, 1].
-const GAUSS_2: [(f64, f64); 2] = [(0.211_324_865_405_187_12, 0.5), (0.788_675_134_594_812_88, 0.5)];
-const GAUSS_3: [(f64, f64); 3] =
-    [(0.112_701_665_379_258_31, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.887_298_334_620_741_69, 5.0 / 18.0)];
-const GAUSS_4: [(f64, f64); 4] = [
-    (0.069_431_844_202_973_712, 0.173_927_422_568_726_93),
-    (0.330_009_478_207_571_87, 0.326_072_577_431_273_07),
-    (0.669_990_521_792_428_13, 0.326_072_577_431_273_07),
-    (0.930_568_155_797_026_29, 0.173_927_422_568_726_93),
-];
 
 /// A planar convex triangle or quad, made ready for form factors to others.
 #[derive(Clone, Debug)]
@@ -180,11 +170,11 @@ fn kernel_sum<const N: usize>(one: &Plate, from: &Points<N>, other: &Plate, to: 
     let to_heights = to.weighted_heights(one);
     // One sum for each point of `to`, so that they are computed side by side.
     let mut sums = [0.0; N];
-    for i in 0..N {
-        for j in 0..N {
+    for (i, from_height) in from_heights.into_iter().enumerate() {
+        for (j, sum) in sums.iter_mut().enumerate() {
             let (x, y, z) = (to.x[j] - from.x[i], to.y[j] - from.y[i], to.z[j] - from.z[i]);
             let square = x * x + y * y + z * z;
-            sums[j] += from_heights[i] * to_heights[j] / (square * square);
+            *sum += from_height * to_heights[j] / (square * square);
         }
     }
     sums.iter().sum::<f64>() / PI

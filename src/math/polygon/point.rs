@@ -20,15 +20,20 @@ pub fn form_factor(point: DVec3, normal: DVec3, corners: &[DVec3]) -> f64 {
     if count < 3 {
         return 0.0;
     }
+    contour_sum(normal, &clipped[..count]).clamp(0.0, 1.0)
+}
+
+/// The sum over the edges of a polygon above the horizon, whose corners are relative to the point.
+pub(super) fn contour_sum(normal: DVec3, corners: &[DVec3]) -> f64 {
     let mut sum = 0.0;
-    let mut from = clipped[count - 1];
-    for &to in &clipped[..count] {
+    let mut from = corners[corners.len() - 1];
+    for &to in corners {
         let axis = from.cross(to);
         sum += angle_over_sine(axis.length_squared(), from.dot(to)) * normal.dot(axis);
         from = to;
     }
     // Seen from the front the corners run counter-clockwise, so each axis points away from the normal's side.
-    (-sum / TAU).clamp(0.0, 1.0)
+    -sum / TAU
 }
 
 /// θ / s for the angle θ in [0, π] with the sine s and a cosine, both times the same positive number. An edge that points

@@ -8,6 +8,7 @@ mod escape;
 mod gather;
 pub mod hemicube;
 mod hemicubes;
+pub mod pair;
 mod polygon;
 mod rays;
 mod visibility;
