@@ -36,9 +36,9 @@ fn summary(report: &CheckReport) -> String {
 }
 
 pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
+    ui.spacing_mut().item_spacing.y = 0.0;
     head(ui);
     let lines = lines(model.checks);
-    ui.spacing_mut().item_spacing.y = 0.0;
     ScrollArea::vertical().auto_shrink(false).show_rows(ui, HEIGHT, lines.len(), |ui, visible| {
         for line in &lines[visible] {
             show_line(ui, line, actions);
