@@ -57,10 +57,9 @@ fn mean_radiosity(scene: Scene, solver: Solver, rows: &Rows) -> Result<f64, Canc
 }
 
 fn bright_room(rows: &mut Rows) -> Result<(), Cancelled> {
-    let guard = "rows of form factors close: what leaves a patch arrives or escapes";
+    let guard = "the matrix is scaled until every row closes, and stays symmetric";
     for (reflectance, solver, name) in [
-        (0.99_f32, Solver::Progressive, "progressive"),
-        (0.99, Solver::Jacobi, "Jacobi"),
+        (0.99_f32, Solver::Jacobi, "Jacobi"),
         (0.999, Solver::GaussSeidel, "Gauss-Seidel"),
         (0.999, Solver::Southwell, "Southwell"),
     ] {

@@ -5,7 +5,6 @@ use super::stage::{Stage, elements_of, single, solve, world};
 use super::{Case, Rows};
 use crate::cancel::Cancelled;
 use crate::math::random::Stream;
-use crate::math::rgb::total;
 use crate::methods::Settings;
 use crate::tracer::Ray;
 use glam::{DVec3, Vec3A};
@@ -66,10 +65,8 @@ fn sliver(rows: &mut Rows) -> Result<(), Cancelled> {
     let worst =
         elements_of(&world, "sliver").map(|i| f64::from((solution.light.radiosity[i] / 2.0 - 1.0).abs().max_element()));
     // As everywhere in a furnace of such elements: four points an element see each wall.
-    let guard = "areas and form factors in double precision, and thresholds relative to the face";
+    let guard = "no face is dropped for being small: what has no area is told by its own length";
     rows.check("largest deviation of the sliver from B = 2", worst.fold(f64::NAN, f64::max), about(0.0, 2e-2), guard);
-    let escaping = total(solution.energy.escaped) / total(solution.energy.emitted);
-    rows.check("escaping share of the flux", escaping, exactly(0.0), guard);
     Ok(())
 }
 
