@@ -60,8 +60,9 @@ impl<'a> Sight<'a> {
         let (bounded, is_cut) = clamped(unoccluded);
         work.form_factors += 1;
         work.clamped += u64::from(is_cut);
-        if bounded == 0.0 {
-            return 0.0;
+        // Where nothing can stand between two points, all that face each other see each other.
+        if bounded == 0.0 || !self.shot.world.has_occluders {
+            return bounded;
         }
         let shift = hash(self.shot.seed, self.shot.pass, index as u64);
         let (visible, rays) = self.sightline.visible_share(element, patch.normal, bounded, shift);

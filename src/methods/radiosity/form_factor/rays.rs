@@ -10,6 +10,8 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 /// The weakest shot still gets this many rays.
 const MIN_RAYS: f64 = 64.0;
+/// No more than this many times the rays for a shooter that is almost covered.
+const LEAST_EXPOSED: f64 = 1.0 / 64.0;
 /// Rays of one stratified set. A sequence of Sobol points is good for 2^16; a longer shot takes several.
 const BATCH: u64 = 1 << 12;
 /// Marks this use of (seed, pass) among the others.
@@ -29,7 +31,13 @@ impl LightRays {
     pub fn shoot(&mut self, shot: &Shot, rays: u32, form_factors: &mut [f64]) -> Outcome {
         let mesh = &shot.world.mesh;
         self.hits.resize_with(mesh.elements.len(), AtomicU32::default);
-        let count = (f64::from(rays) * shot.flux_share).max(MIN_RAYS).ceil() as u64;
+        // Where something stands on the shooter, only rays that start beside it count: then there are more, so that no ray
+        // carries more than others do.
+        let elements = shot.shooter().elements.start as usize..shot.shooter().elements.end as usize;
+        let exposed = mesh.elements[elements].iter().map(|element| f64::from(element.exposed)).sum::<f64>()
+            / shot.shooter().elements.len() as f64;
+        let wanted = (f64::from(rays) * shot.flux_share).max(MIN_RAYS);
+        let count = (wanted / exposed.max(LEAST_EXPOSED)).ceil() as u64;
         let batch = |batch: u64| self.shoot_batch(shot, batch, BATCH.min(count - batch * BATCH));
         let none = || Ends { escaped: 0, landed: 0 };
         let Ends { escaped, landed } = (0..count.div_ceil(BATCH)).into_par_iter().map(batch).reduce(none, Ends::and);
