@@ -9,8 +9,7 @@ use lightwell::cancel::Cancel;
 use lightwell::mesh::MeshSettings;
 use lightwell::methods::Settings;
 use lightwell::scene::Scene;
-use lightwell::solution::Solution;
-use lightwell::viewport::{AdapterChoice, Frame, Gpu, ToneCurve, View, Viewport, automatic_exposure};
+use lightwell::viewport::{AdapterChoice, Frame, Gpu, Light, ToneCurve, View, Viewport, automatic_exposure};
 use lightwell::worker::Run;
 use lightwell::world::World;
 use std::hint::black_box;
@@ -20,13 +19,17 @@ use std::time::{Duration, Instant};
 /// Element size at which the Cornell box has about 100,000 elements.
 const ELEMENT_SIZE: f32 = 0.0049;
 
-/// The time to upload a solution and to choose the exposure. That the adapter takes the upload over is not in it.
-fn take_over(gpu: &Gpu, viewport: &mut Viewport, world: &World, solution: &Solution) -> Duration {
+/// The time to upload what a frame shows of new light, to record its draw and to choose the exposure. That the adapter
+/// takes the upload over and draws is not in it.
+fn take_over(gpu: &Gpu, viewport: &mut Viewport, world: &World, light: &Light, frame: &Frame) -> Duration {
     let start = Instant::now();
-    viewport.set_light(world, solution);
-    black_box(automatic_exposure(world, solution));
+    viewport.set_light(light);
+    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    viewport.draw(&mut encoder, frame);
+    let commands = encoder.finish();
+    black_box(automatic_exposure(world, &light.solution));
     let elapsed = start.elapsed();
-    gpu.queue.submit([]);
+    gpu.queue.submit([commands]);
     gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("the device works");
     elapsed
 }
@@ -46,7 +49,7 @@ fn window_work(criterion: &mut Criterion) {
     for _ in 0..4 {
         run.step(&Cancel::default());
     }
-    let solution = run.solution();
+    let light = Light::from(run.solution());
     println!("viewport: {} elements, {}", world.mesh.elements.len(), gpu.adapter_name());
 
     let mut viewport = Viewport::new(&gpu, wgpu::TextureFormat::Rgba8Unorm);
@@ -55,6 +58,8 @@ fn window_work(criterion: &mut Criterion) {
         camera: Camera::new(&world.viewpoint, &world.bounds),
         size: [640, 480],
         view: View::Smooth,
+        bounce: 0,
+        ambient: false,
         wireframe: false,
         show_shooter: true,
         exposure_ev: 0.0,
@@ -63,7 +68,7 @@ fn window_work(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("window_at_100k_elements");
     group.sample_size(20);
     group.bench_function("take_over_a_solution", |bencher| {
-        bencher.iter_custom(|rounds| (0..rounds).map(|_| take_over(&gpu, &mut viewport, &world, &solution)).sum());
+        bencher.iter_custom(|rounds| (0..rounds).map(|_| take_over(&gpu, &mut viewport, &world, &light, &frame)).sum());
     });
     group.bench_function("record_a_draw", |bencher| {
         bencher.iter(|| {

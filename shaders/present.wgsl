@@ -1,8 +1,10 @@
-// Shows stored radiance on a screen: exposure, tone curve, background, lines, encoding.
+// Shows stored values on a screen: exposure, tone curve, background, lines, encoding.
 
 // Mirrored by `DisplayUniform` in src/viewport/gpu_types.rs.
 struct Display {
-    // Stored radiance to exposed values, of which 1 is white.
+    // Colour of the outlined patch, before encoding.
+    outline: vec3<f32>,
+    // Stored values to exposed ones, of which 1 is white.
     exposure: f32,
     // A tone curve: 0 linear, 1 filmic.
     tone: u32,
@@ -13,12 +15,11 @@ struct Display {
 @group(0) @binding(0) var<uniform> display: Display;
 // Premultiplied with coverage.
 @group(0) @binding(1) var radiance: texture_2d<f32>;
-// Coverage by outlines of elements and by the shooter's outline.
+// Coverage by outlines of elements and by the outline of one patch.
 @group(0) @binding(2) var overlay: texture_2d<f32>;
 
-// Colours of a screen before encoding.
+// Colour of a screen before encoding.
 const BACKGROUND = vec3(0.018, 0.022, 0.030);
-const SHOOTER = vec3(0.0, 0.35, 1.0);
 // How far a line takes a dark pixel towards white and a bright one towards black, which looks about the same.
 const LIGHTEN = 0.1;
 const DARKEN = 0.4;
@@ -49,7 +50,7 @@ fn fragment(corner: Corner) -> @location(0) vec4<f32> {
     }
     let is_dark = luminance(shown) < MID_GREY;
     shown = mix(shown, vec3(select(0.0, 1.0, is_dark)), select(DARKEN, LIGHTEN, is_dark) * lines.r);
-    shown = mix(shown, SHOOTER, lines.g);
+    shown = mix(shown, display.outline, lines.g);
     return vec4(select(shown, encoded(shown), display.encode != 0u), 1.0);
 }
 

@@ -20,7 +20,7 @@ struct Corner {
 struct Drawn {
     // Premultiplied with coverage.
     @location(0) radiance: vec4<f32>,
-    // Coverage by outlines of elements and by the shooter's outline.
+    // Coverage by outlines of elements and by the outline of one patch.
     @location(1) overlay: vec2<f32>,
 }
 

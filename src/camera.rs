@@ -2,6 +2,7 @@
 
 use crate::math::bounds::Bounds;
 use crate::scene::Viewpoint;
+use crate::tracer::Ray;
 use glam::dcamera::rh::proj::directx::perspective_infinite_reverse;
 use glam::dcamera::rh::view::look_to_mat4;
 use glam::{DMat4, DQuat, DVec2, DVec3};
@@ -136,6 +137,18 @@ impl Camera {
         let near = Self::NEAR * self.distance.min(self.scene_radius);
         let clip_from_view = perspective_infinite_reverse(self.vertical_fov, f64::from(aspect), near);
         clip_from_view * look_to_mat4(self.eye(), -self.direction(), self.up)
+    }
+
+    /// The ray from the eye through a point of a picture of this size, both in pixels; the point counts from the top left
+    /// corner.
+    pub fn ray(&self, at: [f32; 2], size: [u32; 2]) -> Ray {
+        let [width, height] = size.map(f64::from);
+        let half_height = (0.5 * self.vertical_fov).tan();
+        let (right, up) = self.right_and_up();
+        let along_x = (2.0 * f64::from(at[0]) - width) / height * half_height;
+        let along_y = (1.0 - 2.0 * f64::from(at[1]) / height) * half_height;
+        let direction = (along_x * right + along_y * up - self.direction()).normalize();
+        Ray { origin: self.eye().as_vec3a(), direction: direction.as_vec3a() }
     }
 
     /// From the target to the eye, of unit length.

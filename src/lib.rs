@@ -2,7 +2,7 @@
 //!
 //! The modules form layers, and a name may be used only from a higher one (`tests/layering.rs` checks it): numbers
 //! ([`math`]), the world ([`scene`], [`mesh`], [`tracer`], [`world`]), what a method hands out ([`solution`]), the
-//! [`methods`], the solver thread ([`worker`]), the picture ([`camera`], [`viewport`]) and the two faces of the program
+//! [`methods`], the [`hard_cases`], the solver thread ([`worker`]), the picture ([`camera`], [`viewport`]) and the two faces of the program
 //! ([`cli`], [`app`]).
 
 pub mod app;
@@ -11,6 +11,7 @@ pub mod cancel;
 pub mod choice;
 pub mod cli;
 pub mod errors;
+pub mod hard_cases;
 pub mod math;
 pub mod mesh;
 pub mod methods;

@@ -93,6 +93,26 @@ fn the_target_stays_under_the_pointer_while_panning() {
 }
 
 #[test]
+fn a_ray_through_a_point_of_the_picture_is_seen_at_that_point() {
+    let mut camera = camera();
+    camera.orbit(0.3, 0.1);
+    let size = [300, 200];
+    for at in [[0.0, 0.0], [300.0, 0.0], [150.0, 100.0], [17.5, 140.25], [299.0, 199.0]] {
+        let ray = camera.ray(at, size);
+        assert!((ray.direction.length() - 1.0).abs() < ROUNDING);
+        for distance in [0.5, 3.0, 200.0] {
+            let seen = project(&camera, 1.5, (ray.origin + distance * ray.direction).as_dvec3());
+            let back = [150.0 * (1.0 + seen.x), 100.0 * (1.0 - seen.y)];
+            // Coordinates of some 10 are rounded to single precision, at half a unit away, where one is 275 pixels.
+            let tolerance = 2.0 * 275.0 * 10.0 * f64::from(f32::EPSILON) / 0.5;
+            for axis in 0..2 {
+                assert!((back[axis] - f64::from(at[axis])).abs() < tolerance, "{back:?}, not {at:?}, at {distance}");
+            }
+        }
+    }
+}
+
+#[test]
 fn zooming_stops_before_it_reaches_the_target_or_loses_the_scene() {
     let mut camera = camera();
     let before = distance(&camera);

@@ -4,10 +4,15 @@
 
 use lightwell::camera::Camera;
 use lightwell::cancel::Cancel;
+use lightwell::choice::Choice;
 use lightwell::mesh::MeshSettings;
-use lightwell::methods::Settings;
+use lightwell::methods::radiosity::pick;
+use lightwell::methods::{Settings, Solver, Step};
 use lightwell::scene::Scene;
-use lightwell::viewport::{AdapterChoice, Frame, Gpu, Picture, ToneCurve, View, automatic_exposure, render_picture};
+use lightwell::solution::Solution;
+use lightwell::viewport::{
+    AdapterChoice, Frame, Gpu, Light, Picture, ToneCurve, View, automatic_exposure, diagram, pick_patch, render_picture,
+};
 use lightwell::worker::Run;
 use lightwell::world::World;
 use std::path::{Path, PathBuf};
@@ -16,6 +21,11 @@ use std::sync::Arc;
 /// Adapters may place and round samples in their own ways: a hard edge that moves by one sixteenth of a pixel changes it
 /// by 16 of 255. Over the picture this averages to far less than one step of 8 bits.
 const MEAN_DIFFERENCE: f64 = 0.75;
+
+/// Width and height, pixels.
+const SIZE: [u32; 2] = [160, 120];
+/// In the Cornell box, before the blocks.
+const FLOOR: [f32; 2] = [50.0, 110.0];
 
 fn reference(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("screenshots/tests").join(format!("{name}.png"))
@@ -28,45 +38,87 @@ fn difference(picture: &Picture, reference: &image::RgbaImage) -> f64 {
     pairs.map(|(a, b)| f64::from(a.abs_diff(*b))).sum::<f64>() / reference.as_raw().len() as f64
 }
 
-fn compare(gpu: &Gpu, scene: &str, view: View, wireframe: bool, shots: u64) {
-    let settings = Settings { mesh: MeshSettings::default(), ..Settings::default() };
-    let scene_read = Scene::open(scene).expect("a built-in scene");
-    let world = Arc::new(World::build(scene_read, &settings.mesh, &Cancel::default()).expect("a world"));
-    let mut run = Run::start(world.clone(), &settings).expect("enough memory");
-    for _ in 0..shots {
-        run.step(&Cancel::default());
+fn settings() -> Settings {
+    Settings { mesh: MeshSettings::default(), ..Settings::default() }
+}
+
+fn world(scene: &str, settings: &Settings) -> Arc<World> {
+    let scene = Scene::open(scene).expect("a built-in scene");
+    Arc::new(World::build(scene, &settings.mesh, &Cancel::default()).expect("a world"))
+}
+
+/// The light after some steps; those that only prepare do not count.
+fn solve(world: &Arc<World>, settings: &Settings, steps: usize) -> Solution {
+    let mut run = Run::start(world.clone(), settings).expect("enough memory");
+    let mut done = 0;
+    while done < steps {
+        done += usize::from(run.step(&Cancel::default()) != Step::Prepared);
     }
-    let solution = run.solution();
+    run.solution()
+}
+
+fn compare_view(gpu: &Gpu, scene: &str, view: View, wireframe: bool, shots: usize) {
+    let settings = settings();
+    let world = world(scene, &settings);
+    let solution = solve(&world, &settings, shots);
+    let camera = Camera::new(&world.viewpoint, &world.bounds);
     let frame = Frame {
-        camera: Camera::new(&world.viewpoint, &world.bounds),
-        size: [160, 120],
+        camera,
+        size: SIZE,
         view,
+        bounce: 0,
+        ambient: false,
         wireframe,
         show_shooter: wireframe,
         exposure_ev: automatic_exposure(&world, &solution),
         tone: ToneCurve::Linear,
     };
-    let picture = render_picture(gpu, &world, &solution, &frame, 16).expect("a picture");
-    let path = reference(&format!("{scene}-{view}"));
+    let patch = pick_patch(&world, &camera, FLOOR, SIZE).expect("a patch of the floor");
+    let picked = view.is_false_colour().then(|| Arc::new(pick(&world, &settings, patch)));
+    let light = Light { solution: Arc::new(solution), picked };
+    let picture = render_picture(gpu, &world, &light, &frame, 16).expect("a picture");
+    compare(&picture, &format!("{scene}-{}", view.name()));
+}
+
+/// Against the reference of this name.
+fn compare(picture: &Picture, name: &str) {
+    let path = reference(name);
     if std::env::var_os("UPDATE_SCREENSHOTS").is_some() {
-        let pixels = picture.srgb.as_flattened();
-        image::save_buffer(&path, pixels, 160, 120, image::ColorType::Rgba8).expect("the picture is written");
+        let ([width, height], pixels) = (picture.size, picture.srgb.as_flattened());
+        image::save_buffer(&path, pixels, width, height, image::ColorType::Rgba8).expect("the picture is written");
         return;
     }
     let reference = image::open(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display())).into_rgba8();
-    let difference = difference(&picture, &reference);
+    let difference = difference(picture, &reference);
     assert!(difference < MEAN_DIFFERENCE, "{}: off by {difference:.2} steps in the mean", path.display());
 }
 
 #[test]
-fn pictures_are_as_they_were() {
+fn views_are_as_they_were() {
     let gpu = match Gpu::new(&AdapterChoice::System) {
         Ok(gpu) => gpu,
         Err(error) if std::env::var_os("REQUIRE_GPU").is_some() => panic!("a graphics adapter is required: {error}"),
         Err(error) => return println!("skipped: {error}"),
     };
-    compare(&gpu, "cornell-box", View::Smooth, false, 300);
-    compare(&gpu, "cornell-box", View::Patches, true, 100);
-    compare(&gpu, "cornell-box", View::Unshot, false, 30);
-    compare(&gpu, "two-rooms", View::Smooth, false, 150);
+    compare_view(&gpu, "cornell-box", View::Smooth, false, 300);
+    compare_view(&gpu, "cornell-box", View::Patches, true, 100);
+    compare_view(&gpu, "cornell-box", View::Unshot, false, 30);
+    compare_view(&gpu, "cornell-box", View::Absorbed, false, 100);
+    compare_view(&gpu, "cornell-box", View::FormFactors, false, 0);
+    compare_view(&gpu, "two-rooms", View::Smooth, false, 150);
+}
+
+#[test]
+fn diagrams_are_as_they_were() {
+    let mut settings = settings();
+    settings.solver = Solver::Jacobi;
+    settings.mesh.element_size = Some(0.1);
+    settings.hemicube_resolution = 64;
+    let world = world("cornell-box", &settings);
+    let camera = Camera::new(&world.viewpoint, &world.bounds);
+    let matrix = solve(&world, &settings, 1).matrix.expect("the matrix is built before the first sweep");
+    compare(&diagram::matrix(&matrix, 160).picture, "cornell-box-matrix");
+    let patch = pick_patch(&world, &camera, FLOOR, SIZE).expect("a patch of the floor");
+    let buffer = pick(&world, &settings, patch).item_buffer;
+    compare(&diagram::item_buffer(&buffer, &world, 160), "cornell-box-item-buffer");
 }

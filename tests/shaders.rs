@@ -60,5 +60,5 @@ fn structs_have_the_layout_of_their_shaders() {
     assert_eq!(layout(&parse("surface"), "Frame"), frame);
     assert_eq!(layout(&parse("outline"), "Frame"), frame);
     assert_eq!(layout(&parse("outline"), "Outline"), mirror!(OutlineUniform, corners, count, width));
-    assert_eq!(layout(&parse("present"), "Display"), mirror!(DisplayUniform, exposure, tone, encode));
+    assert_eq!(layout(&parse("present"), "Display"), mirror!(DisplayUniform, outline, exposure, tone, encode));
 }

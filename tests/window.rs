@@ -1,20 +1,26 @@
 //! The window without a graphics adapter: its panels, found by the labels that a screen reader reads, against a model
 //! made up here.
 
+#[path = "window/looking.rs"]
+mod looking;
+#[path = "window/solvers.rs"]
+mod solvers;
 #[path = "window/stage.rs"]
 mod stage;
 
+use egui::accesskit::Role;
 use egui::{Key, Modifiers, Rect, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lightwell::app::action::{Action, CameraMove};
 use lightwell::app::model::{Dialog, Look, Notice, PathPurpose};
 use lightwell::app::{Explorer, theme};
+use lightwell::choice::Choice;
 use lightwell::methods::Settings;
 use lightwell::scene::{FindingKind, Severity};
 use lightwell::viewport::{AdapterChoice, Gpu, View};
 use lightwell::worker::{Command, Phase};
-use stage::{LARGE, SMALL, SMALLEST, Stage, crowded, finding, solution, texts};
+use stage::{LARGE, SMALL, SMALLEST, Stage, crowds, finding, solution, texts};
 use std::time::{Duration, Instant};
 
 /// What one key asks for.
@@ -31,6 +37,11 @@ fn click(stage: Stage, label: &str) -> Vec<Action> {
     harness.get_by_label(label).click();
     harness.run();
     std::mem::take(&mut harness.state_mut().actions)
+}
+
+/// A text as the window writes it, with a thin space for each `_`.
+fn thin(text: &str) -> String {
+    text.replace('_', "\u{2009}")
 }
 
 /// Frames until one of them shows this label.
@@ -87,7 +98,7 @@ fn letters_and_digits_do_what_the_help_says() {
     assert_eq!(press(Key::F), [Action::Camera(CameraMove::Fit)]);
     let look = Look::default();
     assert_eq!(press(Key::W), [Action::SetLook(Look { wireframe: true, ..look })]);
-    for (digit, view) in [Key::Num1, Key::Num2, Key::Num3].into_iter().zip(View::ALL) {
+    for (digit, view) in [Key::Num1, Key::Num2, Key::Num3].into_iter().zip(View::ALL.iter().copied()) {
         assert_eq!(press(digit), [Action::SetLook(Look { view, ..look })]);
     }
     assert_eq!(key(Stage::empty(), Modifiers::COMMAND, Key::O), [Action::BrowseForScene]);
@@ -111,7 +122,7 @@ fn a_held_key_toggles_once() {
 
 #[test]
 fn keys_belong_to_a_field_while_it_is_edited() {
-    let mut harness = Stage::default().small();
+    let mut harness = Stage::default().window(LARGE);
     harness.get_by_label("Seed").click();
     harness.run();
     for pressed in [Key::Space, Key::R, Key::W, Key::Num1, Key::ArrowRight] {
@@ -214,9 +225,13 @@ fn without_a_scene_there_is_nothing_to_run_but_something_to_open() {
 #[test]
 fn the_view_bar_changes_the_look() {
     let look = Look::default();
-    for view in View::ALL {
-        assert_eq!(click(Stage::default(), view.label()), [Action::SetLook(Look { view, ..look })]);
+    for &view in View::ALL {
+        let mut harness = Stage::default().small();
+        harness.get_by_role_and_label(Role::Button, view.label()).click();
+        harness.run();
+        assert_eq!(harness.state().actions, [Action::SetLook(Look { view, ..look })]);
     }
+    assert_eq!(click(Stage::default(), "Ambient"), [Action::SetLook(Look { ambient: true, ..look })]);
     assert_eq!(click(Stage::default(), "Wireframe"), [Action::SetLook(Look { wireframe: true, ..look })]);
     assert_eq!(click(Stage::default(), "Shooter"), [Action::SetLook(Look { show_shooter: false, ..look })]);
 }
@@ -236,7 +251,6 @@ fn recent_files_and_built_in_scenes_open_from_the_menu() {
 #[test]
 fn the_ledger_shows_where_the_light_is() {
     let harness = Stage::default().small();
-    let thin = |text: &str| text.replace('_', "\u{2009}");
     for figure in ["10.0_W", "6.00_W", "60.0_%", "3.00_W", "30.0_%", "1.00_W", "10.0_%"] {
         harness.get_by_label(&thin(figure));
     }
@@ -256,7 +270,6 @@ fn a_ledger_that_does_not_close_says_so() {
 #[test]
 fn the_status_line_counts() {
     let harness = Stage::default().small();
-    let thin = |text: &str| text.replace('_', "\u{2009}");
     for figure in ["800 patches", "12_752 elements", "1_234 shots", "12.4_Mrays/s", "2.50_s", "30.0_% unshot"] {
         assert!(harness.query_all_by_label(&thin(figure)).next().is_some(), "{figure} is not shown");
     }
@@ -336,7 +349,7 @@ fn nothing_is_asked_for_while_nobody_does_anything() {
 #[test]
 fn texts_lie_inside_the_window_and_apart_from_each_other() {
     for size in [SMALLEST, SMALL, LARGE] {
-        for stage in [crowded(), Stage::default(), Stage::empty()] {
+        for stage in crowds().into_iter().chain([Stage::default(), Stage::empty()]) {
             let harness = stage.window(size);
             let screen = Rect::from_min_size(egui::Pos2::ZERO, size);
             let texts = texts(&harness, size);

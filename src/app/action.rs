@@ -1,6 +1,7 @@
 //! What a panel or a key may ask for. Panels only return these; [`super::Explorer`] is the one place that acts on them.
 
-use super::model::{Dialog, Look, PictureRequest, Theme};
+use super::chart::Chart;
+use super::model::{Dialog, Look, LowerPanel, PictureRequest, Theme};
 use crate::methods::Settings;
 use crate::worker::Command;
 use egui::Vec2;
@@ -23,6 +24,8 @@ pub enum Action {
     ApplySettings(Settings),
     /// Moves the camera.
     Camera(CameraMove),
+    /// Picks the patch at this point of the viewport, in shares of its width and height from the top left.
+    Pick(Vec2),
     /// Saves the viewport as it is at once, under a name that is free.
     SavePictureNow,
     /// Asks the system for a file to save to, and saves a picture there.
@@ -30,6 +33,13 @@ pub enum Action {
     /// Saves a picture to this file.
     SavePicture(PictureRequest, PathBuf),
     SetTheme(Theme),
+    /// Opens a panel below the viewport, or closes the one that is open.
+    ShowLowerPanel(Option<LowerPanel>),
+    SetChart(Chart),
+    /// Runs all hard cases in the background.
+    RunChecks,
+    /// Opens the hard case of this name as a scene.
+    ShowCase(&'static str),
     /// Opens a dialog, or replaces the contents of the one that is open.
     ShowDialog(Dialog),
     CloseDialog,

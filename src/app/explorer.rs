@@ -1,19 +1,23 @@
 //! The program behind the window: it holds what is on show and is the one place that acts on wishes.
 
 use super::action::Action;
+use super::diagrams::Diagrams;
 use super::file_dialogs::{FileDialogs, Outcome};
 use super::frame_clock::FrameClock;
 use super::model::{Dialog, Look, Model, PathPurpose, PictureRequest, SceneFacts, extension};
 use super::notices::Notices;
 use super::panels;
+use super::patch::PatchFacts;
 use super::pictures::{Destination, Job, Pictures};
 use super::preferences::Preferences;
 use super::theme;
 use super::viewport_pane::ViewportPane;
 use crate::cli::picture::{self, Format};
+use crate::hard_cases::cases;
 use crate::methods::Settings;
 use crate::scene::Source;
-use crate::worker::{Command, Snapshot, Worker};
+use crate::viewport::Legend;
+use crate::worker::{Checks, Command, Shown, Snapshot, Worker};
 use egui::{Ui, ViewportCommand};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -29,6 +33,8 @@ pub struct Explorer {
     snapshot: Arc<Snapshot>,
     pane: ViewportPane,
     pictures: Pictures,
+    diagrams: Diagrams,
+    checks: Option<Checks>,
     file_dialogs: FileDialogs,
     look: Look,
     /// Settings that are being edited, or were sent and are not in force yet.
@@ -63,6 +69,8 @@ impl Explorer {
             snapshot: worker.latest(),
             worker,
             pictures: Pictures::spawn(pane.gpu().clone(), ctx.clone()),
+            diagrams: Diagrams::default(),
+            checks: None,
             file_dialogs: FileDialogs::new(ctx),
             look: Look::default(),
             edited: None,
@@ -92,6 +100,7 @@ impl Explorer {
         {
             self.preferences.remember(path);
         }
+        self.diagrams.follow(ctx, &self.snapshot, self.dialog == Some(Dialog::Matrix));
         if self.pane.fly() {
             ctx.request_repaint();
         }
@@ -127,6 +136,8 @@ impl Explorer {
     fn show(&mut self, ui: &mut Ui) -> Vec<Action> {
         let mut actions = Vec::new();
         let error = self.snapshot.error.as_deref().filter(|_| !self.is_error_dismissed);
+        let report = self.checks.as_ref().map(Checks::latest);
+        let picked = self.snapshot.picked.as_deref();
         let model = Model {
             phase: &self.snapshot.phase,
             scene: SceneFacts::of(&self.snapshot),
@@ -137,6 +148,15 @@ impl Explorer {
             viewport_size: self.pane.size(),
             exposure_ev: self.pane.exposure_ev(&self.look),
             theme: self.preferences.theme,
+            lower: self.preferences.lower,
+            chart: self.preferences.chart,
+            checks: report.as_deref(),
+            missing: self.snapshot.solution.as_deref().and_then(|solution| self.look.view.missing(solution, picked)),
+            legend: self.pane.shown().and_then(|(_, light)| Legend::of(self.look.view, light)),
+            matrix: self.diagrams.matrix(),
+            item_buffer: self.diagrams.item_buffer(),
+            patch: PatchFacts::of(&self.snapshot),
+            curves: &self.snapshot.curves,
             recent: &self.preferences.recent,
             notices: self.notices.shown(),
             dialog: self.dialog.as_ref(),
@@ -157,6 +177,7 @@ impl Explorer {
             Action::EditSettings(settings) => self.edited = Some(settings),
             Action::ApplySettings(settings) => self.configure(settings),
             Action::Camera(movement) => self.pane.move_camera(movement),
+            Action::Pick(at) => self.worker.send(Command::Pick(self.pane.patch_at(at))),
             Action::SavePictureNow => {
                 let request = PictureRequest { size: self.pane.size(), samples: 16, format: Format::Png };
                 self.save_picture(request, Destination::Free(request.format));
@@ -171,6 +192,13 @@ impl Explorer {
                 self.preferences.theme = theme;
                 ctx.set_theme(theme);
             }
+            Action::ShowLowerPanel(panel) => self.preferences.lower = panel,
+            Action::SetChart(chart) => self.preferences.chart = chart,
+            Action::RunChecks => {
+                let ctx = ctx.clone();
+                self.checks = Some(Checks::spawn(move || ctx.request_repaint()));
+            }
+            Action::ShowCase(name) => self.show_case(ctx, name),
             Action::ShowDialog(dialog) => self.dialog = Some(dialog),
             Action::CloseDialog => self.dialog = None,
             Action::DismissError => self.is_error_dismissed = true,
@@ -182,6 +210,19 @@ impl Explorer {
     fn open(&mut self, scene: String) {
         self.is_error_dismissed = false;
         self.worker.send(Command::Load(scene));
+    }
+
+    fn show_case(&mut self, ctx: &egui::Context, name: &str) {
+        match cases().find(|case| case.name == name).and_then(|case| (case.scene)()) {
+            Some(scene) => {
+                self.is_error_dismissed = false;
+                self.worker.send(Command::Show(Shown(scene)));
+            }
+            None => {
+                let now = ctx.input(|input| input.time);
+                self.notices.tell(now, format!("{name} is about numbers alone: there is no scene to open"));
+            }
+        }
     }
 
     fn configure(&mut self, settings: Settings) {
@@ -200,14 +241,13 @@ impl Explorer {
     }
 
     fn save_picture(&mut self, request: PictureRequest, destination: Destination) {
-        let (Some((world, solution)), Some(frame)) = (self.pane.shown(), self.pane.frame(&self.look, request.size))
-        else {
+        let (Some((world, light)), Some(frame)) = (self.pane.shown(), self.pane.frame(&self.look, request.size)) else {
             return;
         };
         let job = Job {
-            facts: picture::facts(world, solution, &self.snapshot.settings, &frame),
+            facts: picture::facts(world, light, &self.snapshot.settings, &frame),
             world: Arc::clone(world),
-            solution: Arc::clone(solution),
+            light: light.clone(),
             frame,
             samples: request.samples,
             destination,

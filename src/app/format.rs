@@ -1,5 +1,6 @@
 //! Numbers as people read them: SI prefixes, thin spaces, and as many digits as the value deserves.
 
+use crate::math::rgb::Rgb;
 use std::time::Duration;
 
 /// U+2009, between a number and its unit and between groups of three digits.
@@ -27,6 +28,50 @@ pub fn si(value: f64, unit: &str) -> String {
     let scaled = mantissa * 10_f64.powi(digits_before_point);
     let decimals = (2 - digits_before_point) as usize;
     format!("{}{THIN_SPACE}{prefix}{unit}", minus(&format!("{scaled:.decimals$}")))
+}
+
+/// An area: three significant digits, or a power of ten where those would need more than two zeros. Prefixes would have
+/// to be squared.
+pub fn area(square_metres: f64) -> String {
+    let number = match square_metres {
+        0.0 => "0".to_owned(),
+        value if !(1e-3..1e6).contains(&value) => scientific(value),
+        value => digits(value, value),
+    };
+    format!("{number}{THIN_SPACE}m²")
+}
+
+/// Three channels in one unit, with the digits that the largest deserves: `0.725 0.710 0.680`, `12.4 9.1 0.1 W/m²`.
+pub fn rgb(value: Rgb, unit: &str) -> String {
+    let largest = f64::from(value.abs().max_element());
+    let numbers = match largest {
+        _ if !value.is_finite() => NO_VALUE.to_owned(),
+        0.0 => "0".to_owned(),
+        _ => {
+            let is_plain = (1e-3..1e6).contains(&largest);
+            let number = |value: f64| if is_plain { digits(value, largest) } else { scientific(value) };
+            value.to_array().map(|channel| number(channel.into())).join(" ")
+        }
+    };
+    if unit.is_empty() { numbers } else { format!("{numbers}{THIN_SPACE}{unit}") }
+}
+
+/// A number with as many decimals as give `largest` three significant digits.
+fn digits(value: f64, largest: f64) -> String {
+    let (_, exponent) = mantissa_and_exponent(largest);
+    let decimals = (2 - exponent).max(0) as usize;
+    minus(&format!("{value:.decimals$}"))
+}
+
+/// An SI prefix and as few digits as it takes, for the axis of a chart: `0`, `200`, `1.5 k`, `20 M`, `400 ms`.
+pub fn short(value: f64, unit: &str) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let text = si(value, unit);
+    let (number, unit) = text.split_once(THIN_SPACE).unwrap_or((&text, ""));
+    let number = if number.contains('.') { number.trim_end_matches('0').trim_end_matches('.') } else { number };
+    if unit.is_empty() { number.to_owned() } else { format!("{number}{THIN_SPACE}{unit}") }
 }
 
 /// A whole number in groups of three digits: `20 480`.
@@ -85,6 +130,11 @@ pub fn percent(share: f64) -> String {
     format!("{}{THIN_SPACE}%", minus(&number))
 }
 
+/// A share of one as a whole percentage, rounded down, so that it is 100 % only when all is there.
+pub fn percent_whole(share: f32) -> String {
+    format!("{}{THIN_SPACE}%", (100.0 * share).floor())
+}
+
 /// A share of one as a percentage, without zeros at its end: `100 %`, `0.1 %`.
 pub fn percent_short(share: f64) -> String {
     // Two significant digits first, so that 0.1 % is not 0.100000000000001 %.
@@ -101,6 +151,18 @@ pub fn scientific(value: f64) -> String {
         return "0".to_owned();
     }
     minus(&format!("{value:.1e}"))
+}
+
+/// Six significant digits, with a power of ten where the number is very large or small: `0.190136`, `3.16206e−3`, `12`.
+pub fn figures(value: f64) -> String {
+    let size = value.abs();
+    let number = match size {
+        _ if !value.is_finite() => return NO_VALUE.to_owned(),
+        _ if value.fract() == 0.0 && size < 1e6 => format!("{value}"),
+        _ if (1e-2..1e6).contains(&size) => format!("{value:.*}", (5 - size.log10().floor() as i32).max(0) as usize),
+        _ => format!("{value:.5e}"),
+    };
+    minus(&number)
 }
 
 /// A span of time in the two largest units that it fills: `840 ms`, `1.24 s`, `3 min 12 s`, `2 h 05 min`.
@@ -148,6 +210,27 @@ mod tests {
     }
 
     #[test]
+    fn short_numbers_have_no_idle_digits() {
+        for (value, unit, expected) in
+            [(0.0, "s", "0"), (200.0, "", "200"), (1500.0, "", "1.5_k"), (2e7, "", "20_M"), (0.4, "s", "400_ms")]
+        {
+            assert_eq!(shown(short(value, unit)), expected);
+        }
+    }
+
+    #[test]
+    fn channels_share_their_digits() {
+        assert_eq!(shown(rgb(Rgb::new(0.725, 0.71, 0.68), "")), "0.725 0.710 0.680");
+        assert_eq!(shown(rgb(Rgb::new(12.36, 9.1, -0.05), "W/m²")), "12.4 9.1 −0.1_W/m²");
+        assert_eq!(shown(rgb(Rgb::new(2e-7, 0.0, 1e-7), "W/m²")), "2.0e−7 0 1.0e−7_W/m²");
+        assert_eq!(shown(rgb(Rgb::ZERO, "W/m²")), "0_W/m²");
+        assert_eq!(rgb(Rgb::NAN, ""), NO_VALUE);
+        assert_eq!(shown(area(0.01234)), "0.0123_m²");
+        assert_eq!(shown(area(1e-9)), "1.0e−9_m²");
+        assert_eq!(shown(area(1234.0)), "1234_m²");
+    }
+
+    #[test]
     fn counts_are_grouped_by_three() {
         assert_eq!(shown(count(7)), "7");
         assert_eq!(shown(count(1_000)), "1_000");
@@ -185,6 +268,8 @@ mod tests {
         assert_eq!(shown(percent(0.0)), "0_%");
         assert_eq!(shown(percent_short(10_f64.powi(-3))), "0.1_%");
         assert_eq!(shown(percent_short(1.0)), "100_%");
+        assert_eq!(shown(percent_whole(0.439)), "43_%");
+        assert_eq!(shown(percent_whole(0.999)), "99_%");
     }
 
     #[test]
@@ -192,6 +277,20 @@ mod tests {
         assert_eq!(scientific(3.14e-7), "3.1e−7");
         assert_eq!(scientific(-9.96e12), "−1.0e13");
         assert_eq!(scientific(0.0), "0");
+    }
+
+    #[test]
+    fn figures_have_six_digits() {
+        for (value, expected) in [
+            (0.190_135_882_384_807, "0.190136"),
+            (3183.098_86, "3183.10"),
+            (0.003_162_056_838, "3.16206e−3"),
+            (-12.0, "−12"),
+            (4e9, "4.00000e9"),
+        ] {
+            assert_eq!(figures(value), expected);
+        }
+        assert_eq!(figures(f64::NAN), NO_VALUE);
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The keys of the window: one table that drives the window, its menus, its tooltips and its help.
 
 use super::action::{Action, CameraMove};
-use super::model::{Dialog, Look, Model};
+use super::model::{Dialog, Look, LowerPanel, Model};
 use crate::viewport::View;
 use crate::worker::Command;
 use egui::{Event, InputState, Key, KeyboardShortcut, Modifiers};
@@ -38,8 +38,18 @@ pub const RESET: KeyboardShortcut = key(Key::R);
 pub const PATCHES: KeyboardShortcut = key(Key::Num1);
 pub const SMOOTH: KeyboardShortcut = key(Key::Num2);
 pub const UNSHOT: KeyboardShortcut = key(Key::Num3);
+pub const ABSORBED: KeyboardShortcut = key(Key::Num4);
+pub const BOUNCES: KeyboardShortcut = key(Key::Num5);
+pub const FORM_FACTORS: KeyboardShortcut = key(Key::Num6);
 pub const WIREFRAME: KeyboardShortcut = key(Key::W);
 pub const SHOOTER: KeyboardShortcut = key(Key::O);
+pub const UNPICK: KeyboardShortcut = key(Key::Escape);
+pub const CONVERGENCE: KeyboardShortcut = key(Key::C);
+pub const HARD_CASES: KeyboardShortcut = key(Key::K);
+pub const MATRIX: KeyboardShortcut = key(Key::M);
+pub const AMBIENT: KeyboardShortcut = key(Key::A);
+pub const LESS_BOUNCES: KeyboardShortcut = key(Key::Comma);
+pub const MORE_BOUNCES: KeyboardShortcut = key(Key::Period);
 pub const FIT: KeyboardShortcut = key(Key::F);
 pub const HOME: KeyboardShortcut = key(Key::H);
 pub const SAVE_PICTURE: KeyboardShortcut = key(Key::S);
@@ -48,23 +58,35 @@ pub const QUIT: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key
 pub const HELP: KeyboardShortcut = key(Key::F1);
 
 /// Every key of the window, in the order of its help.
-pub const BINDINGS: [Binding; 16] = [
+pub const BINDINGS: &[Binding] = &[
     Binding::new(RUN, "Run or pause", |model| model.can_run().then(|| run_or_pause(model))),
-    Binding::new(STEP_1, "One shot", |model| step(model, 1)).repeating(),
-    Binding::new(STEP_10, "Ten shots", |model| step(model, 10)),
-    Binding::new(STEP_100, "A hundred shots", |model| step(model, 100)),
+    Binding::new(STEP_1, "One step: a shot or a sweep", |model| step(model, 1)).repeating(),
+    Binding::new(STEP_10, "Ten steps", |model| step(model, 10)),
+    Binding::new(STEP_100, "A hundred steps", |model| step(model, 100)),
     Binding::new(RESET, "Start over from the emitters", |model| {
         model.scene.is_some().then_some(Action::Send(Command::Reset))
     }),
     Binding::new(PATCHES, "View: one colour a patch", |model| view(model, View::Patches)),
     Binding::new(SMOOTH, "View: smooth light", |model| view(model, View::Smooth)),
     Binding::new(UNSHOT, "View: light not shot yet", |model| view(model, View::Unshot)),
+    Binding::new(ABSORBED, "View: absorbed light", |model| view(model, View::Absorbed)),
+    Binding::new(BOUNCES, "View: light after some bounces", |model| view(model, View::Bounces)),
+    Binding::new(FORM_FACTORS, "View: form factors from the picked patch", |model| view(model, View::FormFactors)),
     Binding::new(WIREFRAME, "Show or hide the elements' edges", |model| {
         Some(Action::SetLook(Look { wireframe: !model.look.wireframe, ..model.look }))
     }),
     Binding::new(SHOOTER, "Show or hide the outline of the shooter", |model| {
         Some(Action::SetLook(Look { show_shooter: !model.look.show_shooter, ..model.look }))
     }),
+    Binding::new(AMBIENT, "Show or hide the light to come, as its mean", |model| {
+        Some(Action::SetLook(Look { ambient: !model.look.ambient, ..model.look }))
+    }),
+    Binding::new(LESS_BOUNCES, "View of bounces: one less", |model| bounce(model, -1)).repeating(),
+    Binding::new(MORE_BOUNCES, "View of bounces: one more", |model| bounce(model, 1)).repeating(),
+    Binding::new(UNPICK, "Forget the picked patch", |model| model.patch.map(|_| Action::Send(Command::Pick(None)))),
+    Binding::new(CONVERGENCE, "Open or close the convergence chart", |model| lower(model, LowerPanel::Convergence)),
+    Binding::new(HARD_CASES, "Open or close the hard cases", |model| lower(model, LowerPanel::HardCases)),
+    Binding::new(MATRIX, "Show the matrix of form factors", |_| Some(Action::ShowDialog(Dialog::Matrix))),
     Binding::new(FIT, "Fit the scene into the view", |model| camera(model, CameraMove::Fit)),
     Binding::new(HOME, "Back to the first view of the scene", |model| camera(model, CameraMove::Home)),
     Binding::new(SAVE_PICTURE, "Save a picture of the view", |model| {
@@ -81,6 +103,17 @@ pub fn of_view(view: View) -> KeyboardShortcut {
         View::Patches => PATCHES,
         View::Smooth => SMOOTH,
         View::Unshot => UNSHOT,
+        View::Absorbed => ABSORBED,
+        View::Bounces => BOUNCES,
+        View::FormFactors => FORM_FACTORS,
+    }
+}
+
+/// The key of a panel below the viewport.
+pub fn of_lower_panel(panel: LowerPanel) -> KeyboardShortcut {
+    match panel {
+        LowerPanel::Convergence => CONVERGENCE,
+        LowerPanel::HardCases => HARD_CASES,
     }
 }
 
@@ -89,12 +122,22 @@ pub fn run_or_pause(model: &Model) -> Action {
     Action::Send(if model.is_running() { Command::Pause } else { Command::Run })
 }
 
-fn step(model: &Model, shots: u64) -> Option<Action> {
-    model.can_run().then_some(Action::Send(Command::Step(shots)))
+fn step(model: &Model, steps: u64) -> Option<Action> {
+    model.can_run().then_some(Action::Send(Command::Step(steps)))
 }
 
 fn view(model: &Model, view: View) -> Option<Action> {
     Some(Action::SetLook(Look { view, ..model.look }))
+}
+
+fn bounce(model: &Model, change: isize) -> Option<Action> {
+    let last = model.last_bounce();
+    let bounce = model.look.bounce.min(last).checked_add_signed(change).filter(|bounce| *bounce <= last)?;
+    (model.look.view == View::Bounces).then_some(Action::SetLook(Look { bounce, ..model.look }))
+}
+
+fn lower(model: &Model, panel: LowerPanel) -> Option<Action> {
+    Some(Action::ShowLowerPanel(Some(panel).filter(|panel| model.lower != Some(*panel))))
 }
 
 fn camera(model: &Model, movement: CameraMove) -> Option<Action> {

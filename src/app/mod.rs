@@ -4,6 +4,8 @@
 //! where anything changes. Only this module names egui, eframe and rfd.
 
 pub mod action;
+pub mod chart;
+pub mod diagrams;
 mod explorer;
 mod file_dialogs;
 pub mod format;
@@ -12,6 +14,7 @@ pub mod keys;
 pub mod model;
 mod notices;
 pub mod panels;
+pub mod patch;
 mod pictures;
 mod preferences;
 pub mod theme;

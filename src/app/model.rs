@@ -1,15 +1,21 @@
 //! What the panels show. They read a [`Model`] and return [`super::action::Action`]s; nothing here can be changed by them.
 
+use super::chart::Chart;
+use super::diagrams::MatrixTexture;
+use super::patch::PatchFacts;
+use crate::choice::Choice;
 use crate::cli::picture::Format;
 use crate::math::rgb::Rgb64;
-use crate::methods::Settings;
+use crate::methods::{Settings, Solver};
 use crate::scene::{Finding, FindingKind};
 use crate::solution::Solution;
-use crate::viewport::{Exposure, ToneCurve, View};
-use crate::worker::{Phase, Snapshot};
+use crate::viewport::{Exposure, Legend, ToneCurve, View};
+use crate::worker::{CheckReport, Curve, Phase, Snapshot};
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::Duration;
 
+use egui::TextureHandle;
 pub use egui::Theme;
 
 /// Everything on show in one frame of the window.
@@ -28,6 +34,23 @@ pub struct Model<'a> {
     /// The exposure that is in force, in EV.
     pub exposure_ev: f32,
     pub theme: Theme,
+    /// What is open below the viewport.
+    pub lower: Option<LowerPanel>,
+    pub chart: Chart,
+    /// What the view needs and does not have.
+    pub missing: Option<&'static str>,
+    /// Which numbers the false colours of the view stand for.
+    pub legend: Option<Legend>,
+    /// The matrix of form factors, where the solver keeps one and it is drawn.
+    pub matrix: Option<&'a MatrixTexture>,
+    /// What the picked patch sees through its hemicube.
+    pub item_buffer: Option<&'a TextureHandle>,
+    /// The picked patch, if one is.
+    pub patch: Option<PatchFacts<'a>>,
+    /// How the runs on this scene went, the one under way last.
+    pub curves: &'a [Arc<Curve>],
+    /// How the hard cases went; `None` before they were run.
+    pub checks: Option<&'a CheckReport>,
     /// Scene files that were opened before, newest first.
     pub recent: &'a [PathBuf],
     pub notices: &'a [Notice],
@@ -47,13 +70,34 @@ impl Model<'_> {
         *self.phase == Phase::Running
     }
 
-    /// How far the light is between the emitters (0) and the stop limit (1), on a logarithmic scale: shooting takes
+    /// Whether a step of the solver is a sweep over all patches, and not a shot of one.
+    pub fn sweeps(&self) -> bool {
+        matches!(self.settings.solver, Solver::Jacobi | Solver::GaussSeidel)
+    }
+
+    /// What a step of the solver is called.
+    pub fn step_name(&self) -> &'static str {
+        if self.sweeps() { "sweep" } else { "shot" }
+    }
+
+    /// How much of the matrix is built, in [0, 1], while it is.
+    pub fn preparation(&self) -> Option<f32> {
+        self.solution.and_then(|solution| solution.preparation)
+    }
+
+    /// The most bounces of light that can be looked at.
+    pub fn last_bounce(&self) -> usize {
+        self.solution.map_or(0, |solution| solution.bounces.len().saturating_sub(1))
+    }
+
+    /// How far the light is between the emitters (0) and the stop limit (1), on a logarithmic scale: a solver takes
     /// about as long from 10 % to 1 % of unshot flux as from 100 % to 10 %.
     pub fn progress(&self) -> f32 {
         let Some(solution) = self.solution.filter(|solution| solution.energy.emitted != Rgb64::ZERO) else {
             return 0.0;
         };
-        let unshot = solution.energy.unshot_share();
+        // Overshoot may lend more light than there is left.
+        let unshot = solution.energy.unshot_share().abs();
         let limit = self.settings.unshot_limit;
         if solution.converged || unshot <= limit {
             return 1.0;
@@ -100,6 +144,10 @@ impl<'a> SceneFacts<'a> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Look {
     pub view: View,
+    /// How many bounces of light [`View::Bounces`] shows.
+    pub bounce: usize,
+    /// Adds what the unshot light will bring on average.
+    pub ambient: bool,
     pub wireframe: bool,
     /// Outlines the patch that shot last.
     pub show_shooter: bool,
@@ -111,10 +159,46 @@ impl Default for Look {
     fn default() -> Self {
         Self {
             view: View::Smooth,
+            bounce: 0,
+            ambient: false,
             wireframe: false,
             show_shooter: true,
             exposure: Exposure::Automatic,
             tone: ToneCurve::default(),
+        }
+    }
+}
+
+/// What can be open below the viewport.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LowerPanel {
+    Convergence,
+    HardCases,
+}
+
+impl Choice for LowerPanel {
+    const ALL: &'static [Self] = &[Self::Convergence, Self::HardCases];
+    const KIND: &'static str = "panel";
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Convergence => "convergence",
+            Self::HardCases => "hard-cases",
+        }
+    }
+
+    fn label(self) -> &'static str {
+        match self {
+            Self::Convergence => "Convergence",
+            Self::HardCases => "Hard cases",
+        }
+    }
+
+    fn meaning(self) -> &'static str {
+        match self {
+            Self::Convergence => "How fast each run on this scene came near its end, on one chart",
+            Self::HardCases => "Numbers on which programs of this kind break, each held against what it should be",
         }
     }
 }
@@ -146,6 +230,10 @@ pub enum Dialog {
         purpose: PathPurpose,
         text: String,
     },
+    /// The matrix of form factors.
+    Matrix,
+    /// What the picked patch sees.
+    ItemBuffer,
     Keys,
     About,
 }

@@ -3,17 +3,16 @@
 use super::model::extension;
 use crate::cli::picture::{self, Format};
 use crate::errors::with_causes;
-use crate::solution::Solution;
-use crate::viewport::{Frame, Gpu, render_picture};
+use crate::viewport::{Frame, Gpu, Light, render_picture};
 use crate::world::World;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
-/// Everything that a picture is made of. World and solution are the ones on show when it was asked for.
+/// Everything that a picture is made of. World and light are the ones on show when it was asked for.
 pub struct Job {
     pub world: Arc<World>,
-    pub solution: Arc<Solution>,
+    pub light: Light,
     pub frame: Frame,
     pub samples: u32,
     /// Written into the file beside the picture.
@@ -65,7 +64,7 @@ impl Pictures {
 
 fn save(gpu: &Gpu, job: &Job) -> Result<PathBuf, String> {
     let picture =
-        render_picture(gpu, &job.world, &job.solution, &job.frame, job.samples).map_err(|error| with_causes(&error))?;
+        render_picture(gpu, &job.world, &job.light, &job.frame, job.samples).map_err(|error| with_causes(&error))?;
     let path = match &job.destination {
         Destination::File(path) => path.clone(),
         Destination::Free(format) => free_path(&pictures_folder(), &job.world.scene.name, extension(*format)),

@@ -1,6 +1,7 @@
 //! What the window remembers from one start to the next.
 
-use super::model::Theme;
+use super::chart::Chart;
+use super::model::{LowerPanel, Theme};
 use std::path::{Path, PathBuf};
 
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -9,11 +10,14 @@ pub struct Preferences {
     pub theme: Theme,
     /// Scene files, newest first.
     pub recent: Vec<PathBuf>,
+    /// What is open below the viewport.
+    pub lower: Option<LowerPanel>,
+    pub chart: Chart,
 }
 
 impl Default for Preferences {
     fn default() -> Self {
-        Self { theme: Theme::Dark, recent: Vec::new() }
+        Self { theme: Theme::Dark, recent: Vec::new(), lower: None, chart: Chart::default() }
     }
 }
 

@@ -28,6 +28,10 @@ pub struct Palette {
     pub error: Color32,
     /// Background of a message.
     pub notice: Color32,
+    /// What holds in a list of checks.
+    pub pass: Color32,
+    /// Curves of a chart, told apart by their hue and, for those who do not see it, by their lightness.
+    pub curves: [Color32; 7],
 }
 
 impl Palette {
@@ -45,6 +49,16 @@ const DARK: Palette = Palette {
     warning: Color32::from_rgb(0xf2, 0xb1, 0x4a),
     error: Color32::from_rgb(0xff, 0x7a, 0x6b),
     notice: Color32::from_rgb(0x2c, 0x30, 0x38),
+    pass: Color32::from_rgb(0x57, 0xc0, 0x7a),
+    curves: [
+        Color32::from_rgb(0xf2, 0xb1, 0x4a),
+        Color32::from_rgb(0x6f, 0xb4, 0xf5),
+        Color32::from_rgb(0x57, 0xd0, 0x9a),
+        Color32::from_rgb(0xf0, 0x8c, 0xc0),
+        Color32::from_rgb(0xf5, 0xe8, 0x6a),
+        Color32::from_rgb(0xb1, 0x97, 0xf5),
+        Color32::from_rgb(0xff, 0x7a, 0x6b),
+    ],
 };
 
 const LIGHT: Palette = Palette {
@@ -56,6 +70,16 @@ const LIGHT: Palette = Palette {
     warning: Color32::from_rgb(0xb2, 0x5f, 0x00),
     error: Color32::from_rgb(0xb3, 0x26, 0x1e),
     notice: Color32::from_rgb(0xff, 0xff, 0xff),
+    pass: Color32::from_rgb(0x1e, 0x87, 0x4b),
+    curves: [
+        Color32::from_rgb(0xb2, 0x5f, 0x00),
+        Color32::from_rgb(0x1f, 0x6f, 0xc4),
+        Color32::from_rgb(0x12, 0x80, 0x5c),
+        Color32::from_rgb(0xb8, 0x2c, 0x7c),
+        Color32::from_rgb(0x8a, 0x78, 0x00),
+        Color32::from_rgb(0x6a, 0x45, 0xc4),
+        Color32::from_rgb(0xc4, 0x30, 0x24),
+    ],
 };
 
 /// The window's icon: a glow on a dark ground.

@@ -3,8 +3,8 @@
 use super::action::CameraMove;
 use super::model::Look;
 use crate::camera::{Camera, Flight};
-use crate::solution::Solution;
-use crate::viewport::{Frame, Gpu, Viewport, automatic_exposure};
+use crate::solution::{Picked, Solution};
+use crate::viewport::{Frame, Gpu, Light, Viewport, automatic_exposure, pick_patch};
 use crate::worker::Snapshot;
 use crate::world::World;
 use eframe::egui_wgpu::{Callback, CallbackResources, CallbackTrait, RenderState, ScreenDescriptor};
@@ -18,7 +18,7 @@ pub struct ViewportPane {
     render_state: RenderState,
     gpu: Gpu,
     world: Option<Arc<World>>,
-    solution: Option<Arc<Solution>>,
+    light: Option<Light>,
     camera: Option<Camera>,
     /// A way that the camera is on, and when it set off.
     flight: Option<(Flight, Instant)>,
@@ -37,7 +37,7 @@ impl ViewportPane {
             render_state,
             gpu,
             world: None,
-            solution: None,
+            light: None,
             camera: None,
             flight: None,
             automatic_ev: 0.0,
@@ -64,18 +64,26 @@ impl ViewportPane {
             viewport.set_world(world);
             is_other_scene = self.world.as_ref().is_none_or(|shown| shown.scene.source != world.scene.source);
             self.world = Some(Arc::clone(world));
-            self.solution = None;
+            self.light = None;
         }
-        if let Some(solution) = snapshot.solution.as_ref().filter(|solution| !is_same(&self.solution, solution)) {
-            viewport.set_light(world, solution);
+        if let Some(solution) = snapshot.solution.as_ref().filter(|solution| !self.shows(solution, &snapshot.picked)) {
+            let light = Light { solution: Arc::clone(solution), picked: snapshot.picked.clone() };
+            viewport.set_light(&light);
             self.automatic_ev = automatic_exposure(world, solution);
-            self.solution = Some(Arc::clone(solution));
+            self.light = Some(light);
         }
         if is_other_scene {
             self.camera = Some(Camera::new(&world.viewpoint, &world.bounds));
             self.flight = None;
         }
         is_other_scene
+    }
+
+    fn shows(&self, solution: &Arc<Solution>, picked: &Option<Arc<Picked>>) -> bool {
+        let address = |picked: &Option<Arc<Picked>>| picked.as_ref().map(Arc::as_ptr);
+        let is_on_show =
+            |light: &Light| Arc::ptr_eq(&light.solution, solution) && address(&light.picked) == address(picked);
+        self.light.as_ref().is_some_and(is_on_show)
     }
 
     /// The exposure that `look` asks for, in EV.
@@ -117,6 +125,8 @@ impl ViewportPane {
             camera: self.camera?,
             size,
             view: look.view,
+            bounce: look.bounce,
+            ambient: look.ambient,
             wireframe: look.wireframe,
             show_shooter: look.show_shooter,
             exposure_ev: self.exposure_ev(look),
@@ -124,9 +134,16 @@ impl ViewportPane {
         })
     }
 
+    /// The patch that is seen at a point, in shares of the picture's width and height from the top left.
+    pub fn patch_at(&self, at: Vec2) -> Option<u32> {
+        let (world, camera) = (self.world.as_ref()?, self.camera.as_ref()?);
+        let pixel = at * Vec2::new(self.size[0] as f32, self.size[1] as f32);
+        pick_patch(world, camera, pixel.into(), self.size)
+    }
+
     /// The world and the light on show.
-    pub fn shown(&self) -> Option<(&Arc<World>, &Arc<Solution>)> {
-        self.world.as_ref().zip(self.solution.as_ref())
+    pub fn shown(&self) -> Option<(&Arc<World>, &Light)> {
+        self.world.as_ref().zip(self.light.as_ref())
     }
 
     /// Has the scene painted into `rect`.

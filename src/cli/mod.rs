@@ -1,5 +1,6 @@
 //! The command line: the same code as the window, without one. One file a command.
 
+mod check;
 mod form_factor;
 mod inspect;
 pub mod picture;
@@ -51,6 +52,8 @@ pub enum Command {
     FormFactor(form_factor::Options),
     /// Print what a scene holds and what was wrong with it
     Inspect(inspect::Options),
+    /// Run the gallery of hard cases and print how each went
+    Check(check::Options),
     /// List the built-in scenes
     Scenes(scenes::Options),
 }
@@ -65,6 +68,7 @@ impl Command {
             Self::Probe(options) => probe::run(options),
             Self::FormFactor(options) => form_factor::run(options),
             Self::Inspect(options) => inspect::run(options),
+            Self::Check(options) => check::run(options),
             Self::Scenes(options) => scenes::run(options),
         }
     }
@@ -91,6 +95,16 @@ pub enum CliError {
     Encode { path: PathBuf, source: Box<dyn std::error::Error + Send + Sync> },
     #[error("{path} is neither .png nor .exr")]
     PictureFormat { path: PathBuf },
+    #[error("{failed} of {rows} rows fail")]
+    Check { failed: usize, rows: usize },
+    #[error("there is no patch {patch}: the scene has {patches}, counted from 0")]
+    NoSuchPatch { patch: u32, patches: usize },
+    #[error("no patch is seen at {},{}", .at[0], .at[1])]
+    NothingPicked { at: [f32; 2] },
+    #[error("only {kept} bounces of light were kept, and the light of the emitters")]
+    NoSuchBounce { kept: usize },
+    #[error("there is nothing to draw yet: {0}")]
+    Missing(&'static str),
     #[error("cannot print")]
     Print(#[from] std::io::Error),
 }

@@ -1,9 +1,11 @@
 //! Pictures as files, with what is needed to make them again.
 
 use super::CliError;
+use crate::choice::Choice;
 use crate::methods::Settings;
 use crate::solution::Solution;
-use crate::viewport::{Frame, Picture};
+use crate::viewport::diagram::Diagram;
+use crate::viewport::{Frame, Light, Picture, View};
 use crate::world::World;
 use std::fs::File;
 use std::io::{BufWriter, Write};
@@ -14,7 +16,7 @@ use std::path::{Path, PathBuf};
 pub enum Format {
     /// 8 bits as on the screen, with text chunks.
     Png,
-    /// Linear radiance, W/(m²·sr), in 32-bit floats.
+    /// Linear radiance, W/(m²·sr), or linear colours, in 32-bit floats.
     Exr,
 }
 
@@ -30,19 +32,47 @@ impl Format {
     }
 }
 
-/// What a picture says of itself.
-pub fn facts(world: &World, solution: &Solution, settings: &Settings, frame: &Frame) -> Vec<(String, String)> {
+/// What a picture of a view says of itself: names and values.
+pub fn facts(world: &World, light: &Light, settings: &Settings, frame: &Frame) -> Vec<(String, String)> {
     let viewpoint = frame.camera.viewpoint();
+    let mut facts = run_facts(world, &light.solution, settings, frame.view.name());
+    let mut add = |name: &str, value: String| facts.push((name.to_owned(), value));
+    add("Eye", viewpoint.eye.to_string());
+    add("Target", viewpoint.target.to_string());
+    add("Up", viewpoint.up.to_string());
+    add("Vertical field of view", format!("{} deg", viewpoint.vertical_fov));
+    match (frame.view, &light.picked) {
+        (View::FormFactors, Some(picked)) => add("Picked patch", picked.patch.to_string()),
+        (View::FormFactors, None) => {}
+        _ => add("Exposure", format!("{} EV, {}", frame.exposure_ev, frame.tone.name())),
+    }
+    if frame.view == View::Bounces {
+        add("Bounces", frame.bounce.to_string());
+    }
+    if frame.ambient && matches!(frame.view, View::Patches | View::Smooth) {
+        add("Ambient", light.solution.ambient.to_string());
+    }
+    facts
+}
+
+/// What a diagram says of itself: names and values.
+pub fn diagram_facts(world: &World, light: &Light, settings: &Settings, diagram: Diagram) -> Vec<(String, String)> {
+    let mut facts = run_facts(world, &light.solution, settings, diagram.name());
+    if let (Diagram::ItemBuffer, Some(picked)) = (diagram, &light.picked) {
+        facts.push(("Picked patch".to_owned(), picked.patch.to_string()));
+        facts.push(("Hemicube".to_owned(), settings.hemicube_resolution.to_string()));
+    }
+    facts
+}
+
+fn run_facts(world: &World, solution: &Solution, settings: &Settings, view: &str) -> Vec<(String, String)> {
     let facts = [
         ("Software", concat!("Lightwell ", env!("CARGO_PKG_VERSION")).to_owned()),
         ("Scene", world.scene.name.clone()),
-        ("View", frame.view.to_string()),
-        ("Eye", viewpoint.eye.to_string()),
-        ("Target", viewpoint.target.to_string()),
-        ("Up", viewpoint.up.to_string()),
-        ("Vertical field of view", format!("{} deg", viewpoint.vertical_fov)),
-        ("Exposure", format!("{} EV, {}", frame.exposure_ev, frame.tone)),
-        ("Method", "progressive radiosity".to_owned()),
+        ("View", view.to_owned()),
+        ("Method", "radiosity".to_owned()),
+        ("Solver", settings.solver.name().to_owned()),
+        ("Form factors", settings.form_factor.name().to_owned()),
         ("Element size", format!("{} m", world.element_size)),
         ("Shadow rays", settings.shadow_rays.to_string()),
         ("Stop limit", settings.unshot_limit.to_string()),
@@ -50,7 +80,7 @@ pub fn facts(world: &World, solution: &Solution, settings: &Settings, frame: &Fr
         ("Seconds", format!("{:.3}", solution.elapsed.as_secs_f64())),
         ("Seed", settings.seed.to_string()),
     ];
-    facts.map(|(key, value)| (key.to_owned(), value)).into()
+    facts.map(|(name, value)| (name.to_owned(), value)).into()
 }
 
 /// Writes a picture in the format of its ending. The file appears when it is whole: a failure leaves what was there.

@@ -71,7 +71,7 @@ pub struct Solved {
 }
 
 impl RunOptions {
-    fn settings(&self) -> Settings {
+    pub fn settings(&self) -> Settings {
         let limit = self.converge.map_or(Settings::default().unshot_limit, |percent| percent / 100.0);
         Settings {
             mesh: MeshSettings {
@@ -101,7 +101,11 @@ impl RunOptions {
 
     /// Opens the scene and runs the method until it should stop.
     pub fn solve(&self) -> Result<Solved, CliError> {
-        let world = self.open()?;
+        self.solve_in(self.open()?)
+    }
+
+    /// Runs the method in the opened scene until it should stop.
+    pub fn solve_in(&self, world: Arc<World>) -> Result<Solved, CliError> {
         warn_of(&world.scene.findings);
         let settings = self.settings();
         let mut run = Run::start(world.clone(), &settings)?;

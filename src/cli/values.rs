@@ -20,6 +20,13 @@ pub fn size(text: &str) -> Result<[u32; 2], String> {
     sides.filter(|sides| sides.iter().all(|&side| side > 0)).ok_or_else(|| "a size is wanted, as in 640x480".to_owned())
 }
 
+/// `320.5,240`
+pub fn pixel(text: &str) -> Result<[f32; 2], String> {
+    let numbers = text.split_once(',').and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]));
+    let finite = numbers.filter(|at: &[f32; 2]| at.iter().all(|number| number.is_finite()));
+    finite.ok_or_else(|| "a place in the picture is wanted, as in 320,240".to_owned())
+}
+
 /// A number above 0.
 pub fn positive(text: &str) -> Result<f64, String> {
     let number = text.parse().ok().filter(|number: &f64| *number > 0.0 && number.is_finite());

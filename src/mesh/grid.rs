@@ -87,6 +87,23 @@ impl Shape {
         }
     }
 
+    /// The cells of the division into `count` along an edge, from the corner with the edge's number to the next corner.
+    /// Each has its own edge of that number there.
+    pub fn edge_cells(&self, count: [u32; 2], edge: usize) -> impl Iterator<Item = u32> + use<> {
+        let ([across, up], is_triangle) = (count, matches!(self, Self::Triangle(_)));
+        let length = if is_triangle || edge.is_multiple_of(2) { across } else { up };
+        let row_of_triangle = move |row: u32| row * (2 * across - row);
+        (0..length).map(move |i| match (is_triangle, edge) {
+            (true, 0) => 2 * i,
+            (true, 1) => row_of_triangle(i) + 2 * (across - 1 - i),
+            (true, _) => row_of_triangle(across - 1 - i),
+            (false, 0) => i,
+            (false, 1) => i * across + across - 1,
+            (false, 2) => up * across - 1 - i,
+            (false, _) => (up - 1 - i) * across,
+        })
+    }
+
     /// The cell of the division into `count` that holds the point with these coordinates.
     pub fn cell_at(&self, count: [u32; 2], at: DVec2) -> u32 {
         match self {
@@ -219,6 +236,25 @@ mod tests {
                     let cell = shape.cell(count, index);
                     let middle = cell.corners().iter().sum::<DVec3>() / cell.corners().len() as f64;
                     assert_eq!(shape.cell_at(count, shape.coordinates(middle)), index);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_cells_along_an_edge_follow_it_with_their_own() {
+        for shape in shapes() {
+            let corners = shape.corners();
+            for count in [[1, 1], [4, 4], [7, 2]] {
+                for edge in 0..corners.len() {
+                    let next = (edge + 1) % corners.len();
+                    let mut at = corners[edge];
+                    for index in shape.edge_cells(count, edge) {
+                        let cell = shape.cell(count, index);
+                        assert!(cell.corners()[edge].distance(at) < 1e-14);
+                        at = cell.corners()[next];
+                    }
+                    assert!(at.distance(corners[next]) < 1e-14);
                 }
             }
         }

@@ -1,12 +1,17 @@
 //! Polygon sides cut into patches, which shoot light, and elements, which receive it.
 
 mod grid;
+mod hanging;
 mod locate;
+mod outline;
+mod point_tree;
 mod region;
 mod smooth;
 mod subdivide;
+mod vertices;
 
 pub use grid::{Grid, Shape};
+pub use hanging::Hanging;
 pub use locate::Location;
 pub use region::{Region, Sampler};
 pub use subdivide::{element_size_for, estimated_elements, subdivide};
@@ -25,7 +30,10 @@ pub struct Mesh {
     /// Corner positions of elements, m. Elements share a vertex where light is smooth across it: same material,
     /// same side, no crease.
     pub vertices: Vec<Vec3>,
-    /// Σ exposed area of the elements round each vertex, m².
+    /// Vertices on edges of other elements, each after those that it hangs on.
+    pub hanging: Vec<Hanging>,
+    /// Σ exposed area of the elements that count at each vertex, m²: those round it and, in part, those round the vertices
+    /// that hang on it. 0 for one that hangs itself.
     vertex_areas: Vec<f32>,
 }
 
@@ -109,7 +117,7 @@ impl Mesh {
             let elements = &self.elements[patch.elements.start as usize..patch.elements.end as usize];
             patch.area = elements.iter().map(|element| element.area).sum();
         }
-        self.vertex_areas = smooth::vertex_areas(&self.elements, &self.vertices);
+        self.weigh_vertices();
     }
 
     /// Mean over the elements of each patch, by exposed area; 0 where nothing is exposed. `values` has one entry an element.

@@ -1,15 +1,13 @@
 //! Cuts the sides of a scene's polygons into patches and these into elements.
 
 use super::grid::{Grid, Shape};
-use super::{Element, Mesh, Patch, Side, side_index, smooth};
+use super::hanging::hanging_vertices;
+use super::vertices::{Surface, Vertices};
+use super::{Element, Mesh, Patch, Side, side_index};
 use crate::cancel::{Cancel, Cancelled};
 use crate::math::polygon::vector_area;
 use crate::scene::{Polygon, Scene};
-use glam::{DVec3, Vec3, Vec3A};
-use std::collections::HashMap;
-
-/// Sides that meet at a sharper angle than this show a crease. cos 30°
-const CREASE_COSINE: f32 = 0.866;
+use glam::{DVec3, Vec3A};
 
 /// The element size, m, at which the mesh has about as many elements as wanted, or the nearest to it: there is at least
 /// one for each side.
@@ -61,7 +59,8 @@ pub fn subdivide(
     }
     let Builder { mut mesh, vertices, .. } = builder;
     mesh.vertices = vertices.positions;
-    mesh.vertex_areas = smooth::vertex_areas(&mesh.elements, &mesh.vertices);
+    mesh.hanging = hanging_vertices(&mesh, &vertices.surfaces, cancel)?;
+    mesh.weigh_vertices();
     Ok(mesh)
 }
 
@@ -96,6 +95,7 @@ impl Builder<'_> {
     fn add_side(&mut self, shape: Shape, polygon: u32, is_front: bool, material: u32) -> Result<(), Cancelled> {
         let grid = Grid::fit(&shape, self.element_size, self.per_patch_edge);
         let normal = vector_area(shape.corners()).normalize().as_vec3a();
+        let surface = Surface { normal, material };
         let patches_start = self.mesh.patches.len() as u32;
         let elements_start = self.mesh.elements.len() as u32;
         for index in 0..shape.cells(grid.patches) {
@@ -106,7 +106,7 @@ impl Builder<'_> {
             let first = self.mesh.elements.len() as u32;
             let patch = self.mesh.patches.len() as u32;
             for index in 0..patch_shape.cells(grid.elements) {
-                let element = self.element(&patch_shape.cell(grid.elements, index), patch, normal, material);
+                let element = self.element(&patch_shape.cell(grid.elements, index), patch, surface);
                 self.mesh.elements.push(element);
             }
             let corners = padded(patch_shape.corners()).map(|corner| corner.as_vec3());
@@ -132,10 +132,10 @@ impl Builder<'_> {
         Ok(())
     }
 
-    fn element(&mut self, shape: &Shape, patch: u32, normal: Vec3A, material: u32) -> Element {
+    fn element(&mut self, shape: &Shape, patch: u32, surface: Surface) -> Element {
         let corners = shape.corners();
         Element {
-            corners: padded(corners).map(|corner| self.vertices.share(corner.as_vec3(), normal, material)),
+            corners: padded(corners).map(|corner| self.vertices.share(corner.as_vec3(), surface)),
             corner_count: corners.len() as u8,
             patch,
             center: center(corners),
@@ -152,37 +152,4 @@ fn padded(corners: &[DVec3]) -> [DVec3; 4] {
 
 fn center(corners: &[DVec3]) -> Vec3A {
     (corners.iter().sum::<DVec3>() / corners.len() as f64).as_vec3a()
-}
-
-/// Vertices that elements share.
-#[derive(Default)]
-struct Vertices {
-    positions: Vec<Vec3>,
-    /// Normal and material of the side that made each vertex, and the next vertex in the same place.
-    origins: Vec<(Vec3A, u32, Option<u32>)>,
-    /// The newest vertex at a position, by the bits of its coordinates.
-    by_position: HashMap<[u32; 3], u32>,
-}
-
-impl Vertices {
-    /// The vertex at `position` on a surface with this normal and material: one that is there already where no crease
-    /// or change of material separates the two, else a new one.
-    fn share(&mut self, position: Vec3, normal: Vec3A, material: u32) -> u32 {
-        // Adding zero makes −0 and +0 one place.
-        let key = (position + Vec3::ZERO).to_array().map(f32::to_bits);
-        let newest = self.by_position.get(&key).copied();
-        let mut candidate = newest;
-        while let Some(vertex) = candidate {
-            let (other_normal, other_material, next) = self.origins[vertex as usize];
-            if other_material == material && other_normal.dot(normal) >= CREASE_COSINE {
-                return vertex;
-            }
-            candidate = next;
-        }
-        let vertex = self.positions.len() as u32;
-        self.positions.push(position);
-        self.origins.push((normal, material, newest));
-        self.by_position.insert(key, vertex);
-        vertex
-    }
 }

@@ -62,6 +62,7 @@ pub enum FindingKind {
     MalformedLine,
     IndexOutOfRange,
     UnusedVertices,
+    SceneMoved,
     MissingMaterialFile,
     MissingMaterial,
     ValueOutOfRange,

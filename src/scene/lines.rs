@@ -3,14 +3,18 @@
 //! The parser behind [`super::obj`] gives up a whole file for one bad line and does not say which. So every line is
 //! looked at here first: what cannot be used is reported with its number and left out of the text that the parser gets.
 //! Also settled here, because the parser does not know them: comments behind numbers, lines continued by a backslash,
-//! keywords set off by tabs.
+//! keywords set off by tabs, and coordinates of more digits than single precision has.
 
 use super::doctor::{Finding, FindingKind};
 use std::borrow::Cow;
 
 /// Largest coordinate that is accepted, m. The squared length of a cross product of two edges reaches 192 c⁴ for
 /// coordinates up to c, which must stay below `f32::MAX` = 3.4e38.
-pub const MAX_COORDINATE: f32 = 1e9;
+pub const MAX_COORDINATE: f64 = 1e9;
+
+/// A scene whose middle is farther from the origin than this many times its extent is moved to the origin. Up to there, ray
+/// origins are moved off their surface by 32 ε · 16 = 6e-5 of the extent: less than what counts as touching.
+const FARTHEST: f64 = 16.0;
 
 /// The name of faces that stand before any `o` or `g` line.
 pub const UNNAMED: &str = "unnamed";
@@ -18,7 +22,8 @@ pub const UNNAMED: &str = "unnamed";
 /// The usable part of an OBJ file.
 #[derive(Debug)]
 pub struct CheckedObj {
-    /// OBJ text with `v`, `f` (absolute position indices only), `o` and `usemtl` lines, each of them usable.
+    /// OBJ text with `v`, `f` (absolute position indices only), `o` and `usemtl` lines, each of them usable; all `v` lines
+    /// come first.
     pub text: String,
     /// Line of each face of `text`, in order.
     pub face_lines: Vec<u32>,
@@ -105,7 +110,8 @@ struct Checker {
 /// What faces need to know of a vertex. Even one that cannot be used has its place in the numbering.
 struct Vertex {
     line: u32,
-    is_usable: bool,
+    /// m; `None` for one that cannot be used.
+    position: Option<[f64; 3]>,
     is_used: bool,
 }
 
@@ -124,26 +130,16 @@ impl Checker {
     }
 
     fn vertex(&mut self, number: u32, rest: &str) {
-        let problem = match parse_position(rest) {
-            Err(problem) => Some((FindingKind::MalformedLine, problem)),
-            Ok(position) if position.iter().any(|c| !c.is_finite()) => {
-                Some((FindingKind::NonFiniteVertex, "a coordinate is not a finite number".to_owned()))
-            }
-            Ok(position) if position.iter().any(|c| c.abs() > MAX_COORDINATE) => {
-                Some((FindingKind::ValueOutOfRange, format!("a coordinate is larger than {MAX_COORDINATE:e}")))
-            }
-            // A fourth number (the weight of rational curves) and vertex colours mean nothing to polygons here.
-            Ok([x, y, z]) => {
-                self.output.text += &format!("v {x} {y} {z}\n");
+        let position = match usable_position(rest) {
+            Ok(position) => Some(position),
+            Err((kind, problem)) => {
+                let subject = format!("vertex {}, line {number}", self.vertices.len() + 1);
+                let remedy = "faces that use it are left out";
+                self.output.findings.push(Finding::warning(kind, subject, problem, remedy));
                 None
             }
         };
-        self.vertices.push(Vertex { line: number, is_usable: problem.is_none(), is_used: false });
-        if let Some((kind, problem)) = problem {
-            self.output.text += "v 0 0 0\n";
-            let subject = format!("vertex {}, line {number}", self.vertices.len());
-            self.output.findings.push(Finding::warning(kind, subject, problem, "faces that use it are left out"));
-        }
+        self.vertices.push(Vertex { line: number, position, is_used: false });
     }
 
     fn face(&mut self, number: u32, rest: &str) {
@@ -173,7 +169,7 @@ impl Checker {
         if corners.len() < 3 {
             return Err((FindingKind::DegenerateFace, format!("the face has {} corners", corners.len())));
         }
-        match corners.iter().find(|&&corner| !self.vertices[corner].is_usable) {
+        match corners.iter().find(|&&corner| self.vertices[corner].position.is_none()) {
             None => Ok(corners),
             Some(&corner) => {
                 let problem = format!("vertex {} (line {}) cannot be used", corner + 1, self.vertices[corner].line);
@@ -227,13 +223,63 @@ impl Checker {
             let problem = format!("{unused} of {} vertices belong to no face", self.vertices.len());
             self.output.findings.push(Finding::note(FindingKind::UnusedVertices, "the file", problem, "left out"));
         }
+        let origin = self.origin();
+        if origin != [0.0; 3] {
+            let [x, y, z] = origin;
+            self.output.findings.push(Finding::warning(
+                FindingKind::SceneMoved,
+                "the scene",
+                "it is so far from the origin that single precision would lose its detail",
+                format!("moved by {} {} {}; all coordinates are those of the moved scene", -x, -y, -z),
+            ));
+        }
+        let mut text = String::new();
+        for vertex in &self.vertices {
+            let [x, y, z] = vertex.position.unwrap_or(origin);
+            text += &format!("v {} {} {}\n", (x - origin[0]) as f32, (y - origin[1]) as f32, (z - origin[2]) as f32);
+        }
+        self.output.text.insert_str(0, &text);
         self.output
+    }
+
+    /// Where the scene's origin should be, m: at 0, or at the middle of the used vertices where they are far from 0. It is
+    /// rounded to a power of two of about the scene's extent, so that a file that was moved by whole numbers gives the
+    /// very same coordinates as before.
+    fn origin(&self) -> [f64; 3] {
+        let used = self.vertices.iter().filter(|vertex| vertex.is_used).filter_map(|vertex| vertex.position);
+        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        for position in used {
+            for axis in 0..3 {
+                low[axis] = low[axis].min(position[axis]);
+                high[axis] = high[axis].max(position[axis]);
+            }
+        }
+        let extent = (0..3).map(|axis| high[axis] - low[axis]).fold(0.0, f64::max);
+        let middle = [0, 1, 2].map(|axis| 0.5 * (low[axis] + high[axis]));
+        let distance = middle.iter().fold(0.0, |most: f64, coordinate| most.max(coordinate.abs()));
+        if extent == 0.0 || distance <= FARTHEST * extent {
+            return [0.0; 3];
+        }
+        let step = extent.log2().ceil().exp2();
+        middle.map(|coordinate| (coordinate / step).round() * step)
     }
 }
 
-fn parse_position(rest: &str) -> Result<[f32; 3], String> {
+/// A fourth number (the weight of rational curves) and vertex colours mean nothing to polygons here.
+fn usable_position(rest: &str) -> Result<[f64; 3], (FindingKind, String)> {
+    let position = parse_position(rest).map_err(|problem| (FindingKind::MalformedLine, problem))?;
+    if position.iter().any(|coordinate| !coordinate.is_finite()) {
+        return Err((FindingKind::NonFiniteVertex, "a coordinate is not a finite number".to_owned()));
+    }
+    if position.iter().any(|coordinate| coordinate.abs() > MAX_COORDINATE) {
+        return Err((FindingKind::ValueOutOfRange, format!("a coordinate is larger than {MAX_COORDINATE:e}")));
+    }
+    Ok(position)
+}
+
+fn parse_position(rest: &str) -> Result<[f64; 3], String> {
     let mut words = words(rest);
-    let mut position = [0.0; 3];
+    let mut position = [0.0_f64; 3];
     for coordinate in &mut position {
         let word = words.next().ok_or("a vertex needs three coordinates")?;
         *coordinate = word.parse().map_err(|_| format!("`{word}` is no number"))?;

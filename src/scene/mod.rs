@@ -51,6 +51,14 @@ impl Scene {
         }
     }
 
+    /// Reads a scene that is part of the program from OBJ text. Whatever library it asks for has the MTL text.
+    ///
+    /// # Errors
+    /// [`SceneError::Empty`] where no face can be used.
+    pub fn from_text(name: &'static str, obj: &str, mtl: &str) -> Result<Self, SceneError> {
+        obj::read(obj, name, Source::Builtin(name), name, &mut |_| Ok(mtl.to_owned()))
+    }
+
     fn open_file(path: &Path) -> Result<Self, SceneError> {
         let text = read_text(path).map_err(|source| match source.kind() {
             io::ErrorKind::NotFound => {

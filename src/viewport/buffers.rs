@@ -1,47 +1,58 @@
 //! A world and its light in the memory of the graphics device.
 
+use super::Gpu;
 use super::gpu_types::{FrameUniform, OutlineUniform};
 use super::pipelines::{Pipelines, bind};
-use super::{Gpu, View};
+use super::shading::{Quantity, Shading};
 use crate::math::rgb::Rgb;
 use crate::mesh::{Mesh, Patch};
-use crate::solution::Solution;
 use crate::world::World;
 use bytemuck::{Pod, Zeroable, cast_slice};
 use glam::{DMat4, DVec3, Vec3};
 use std::f32::consts::PI;
 use std::mem::size_of;
+use std::sync::Arc;
 use wgpu::BufferUsages;
 
 /// The corner that a triangle does not have.
 const NO_CORNER: u32 = u32::MAX;
 /// On the screen, pixels.
-const SHOOTER_WIDTH: f32 = 3.0;
+const OUTLINE_WIDTH: f32 = 3.0;
 /// The largest radiance is stored as at most this, by half floats that end at 65504.
 const LARGEST_STORED: f32 = 32768.0;
 
-/// The mesh, uploaded once, and its light, uploaded with each solution.
+/// The mesh, uploaded once, and the values of its elements, uploaded whenever others are shown.
 pub struct WorldBuffers {
+    pub world: Arc<World>,
     /// Corners 4 e + k of the triangles that elements are drawn as.
     pub indices: wgpu::Buffer,
     pub index_count: u32,
-    /// Edges of the outlined shooter; 0 where nothing has shot.
-    pub outline_edges: u32,
-    /// Uploaded radiosity to stored radiance: 1/π and a power of two, which keeps half floats in range.
-    pub scale: f32,
+    /// What is stored for a radiance of 1 W/(m²·sr), or for a colour of 1: a power of two, which keeps half floats in range.
+    pub stored_per_unit: f32,
+    pub quantity: Quantity,
+    /// Whether values belong to vertices, and not to elements.
+    pub is_smooth: bool,
+    /// Uploaded to stored values.
+    scale: f32,
     frame: wgpu::Buffer,
     outline: wgpu::Buffer,
-    /// Radiosity of elements, radiosity of vertices, unshot radiosity of elements, in the order of [`View::ALL`].
-    values: [wgpu::Buffer; 3],
-    surface_groups: [wgpu::BindGroup; 3],
+    element_values: Values,
+    vertex_values: Values,
     outline_group: wgpu::BindGroup,
     units: Units,
-    /// Radiosity of vertices, kept to be filled again.
+    /// Values of vertices, kept to be filled again.
     smoothed: Vec<Rgb>,
 }
 
+/// r g b of each element or of each vertex, and what a surface's pipeline reads with it.
+struct Values {
+    buffer: wgpu::Buffer,
+    group: wgpu::BindGroup,
+}
+
 impl WorldBuffers {
-    pub fn new(gpu: &Gpu, pipelines: &Pipelines, world: &World) -> Self {
+    /// A world in the dark.
+    pub fn new(gpu: &Gpu, pipelines: &Pipelines, world: &Arc<World>) -> Self {
         let mesh = &world.mesh;
         let units = Units::new(world);
         let positions: Vec<Vec3> = mesh.vertices.iter().map(|&vertex| units.unit_from_world(vertex)).collect();
@@ -49,47 +60,50 @@ impl WorldBuffers {
         let indices = triangle_indices(mesh);
 
         let storage = BufferUsages::STORAGE;
-        let [per_element, per_vertex] =
-            [mesh.elements.len(), mesh.vertices.len()].map(|n| (n * size_of::<Rgb>()) as u64);
-        let values = [per_element, per_vertex, per_element].map(|size| buffer(gpu, size, storage));
         let frame = buffer(gpu, size_of::<FrameUniform>() as u64, BufferUsages::UNIFORM);
         let outline = buffer(gpu, size_of::<OutlineUniform>() as u64, BufferUsages::UNIFORM);
         let [positions, corners] = [filled(gpu, &positions, storage), filled(gpu, &corners, storage)];
-
-        let surface_groups = values.each_ref().map(|values| {
-            let buffers = [&frame, &positions, &corners, values].map(wgpu::Buffer::as_entire_binding);
-            bind(&gpu.device, &pipelines.surface_layout, &buffers)
-        });
+        let values = |count: usize| {
+            let values = buffer(gpu, (count * size_of::<Rgb>()) as u64, storage);
+            let buffers = [&frame, &positions, &corners, &values].map(wgpu::Buffer::as_entire_binding);
+            let group = bind(&gpu.device, &pipelines.surface_layout, &buffers);
+            Values { buffer: values, group }
+        };
         let outline_resources = [&frame, &outline].map(wgpu::Buffer::as_entire_binding);
         Self {
+            world: Arc::clone(world),
             index_count: indices.len() as u32,
             indices: filled(gpu, &indices, BufferUsages::INDEX),
-            outline_edges: 0,
-            scale: 1.0 / PI,
+            stored_per_unit: 1.0,
+            quantity: Quantity::FluxDensity,
+            is_smooth: false,
+            scale: 1.0,
+            element_values: values(mesh.elements.len()),
+            vertex_values: values(mesh.vertices.len()),
             outline_group: bind(&gpu.device, &pipelines.outline_layout, &outline_resources),
             frame,
             outline,
-            values,
-            surface_groups,
             units,
             smoothed: Vec::new(),
         }
     }
 
-    /// Uploads radiosities, smoothed and not, and the outline of the shooter. Only memory is moved: no buffer is made.
-    pub fn set_light(&mut self, gpu: &Gpu, world: &World, solution: &Solution) {
-        let light = &solution.light;
-        world.mesh.smooth(&light.radiosity, &mut self.smoothed);
-        for (buffer, values) in self.values.iter().zip([&light.radiosity, &self.smoothed, &light.unshot]) {
-            gpu.queue.write_buffer(buffer, 0, cast_slice(values));
+    /// Uploads the values that are drawn from now on. Only memory is moved: no buffer is made.
+    pub fn set_values(&mut self, gpu: &Gpu, shading: &Shading<'_>) {
+        self.is_smooth = shading.is_smooth;
+        if shading.is_smooth {
+            self.world.mesh.smooth(&shading.values, &mut self.smoothed);
+            gpu.queue.write_buffer(&self.vertex_values.buffer, 0, cast_slice(&self.smoothed));
+        } else {
+            gpu.queue.write_buffer(&self.element_values.buffer, 0, cast_slice(&shading.values));
         }
-        self.scale = range_scale(&[&light.radiosity, &light.unshot]) / PI;
-        self.outline_edges = 0;
-        if let Some(shooter) = solution.shooter {
-            let outline = self.units.outline(&world.mesh.patches[shooter as usize]);
-            gpu.queue.write_buffer(&self.outline, 0, bytemuck::bytes_of(&outline));
-            self.outline_edges = outline.count;
-        }
+        self.quantity = shading.quantity;
+        let units_per_value = match shading.quantity {
+            Quantity::FluxDensity => 1.0 / PI,
+            Quantity::Colour => 1.0,
+        };
+        self.stored_per_unit = range_scale(&shading.values, units_per_value);
+        self.scale = self.stored_per_unit * units_per_value;
     }
 
     pub fn set_frame(&self, gpu: &Gpu, clip_from_world: DMat4, size: [u32; 2], line_width: f32) {
@@ -102,8 +116,16 @@ impl WorldBuffers {
         gpu.queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&uniform));
     }
 
-    pub fn surface_group(&self, view: View) -> &wgpu::BindGroup {
-        &self.surface_groups[view as usize]
+    /// Uploads the outline of a patch and returns how many edges it has.
+    pub fn set_outline(&self, gpu: &Gpu, patch: u32) -> u32 {
+        let outline = self.units.outline(&self.world.mesh.patches[patch as usize]);
+        gpu.queue.write_buffer(&self.outline, 0, bytemuck::bytes_of(&outline));
+        outline.count
+    }
+
+    /// What the surfaces' pipeline reads.
+    pub fn surface_group(&self) -> &wgpu::BindGroup {
+        if self.is_smooth { &self.vertex_values.group } else { &self.element_values.group }
     }
 
     pub fn outline_group(&self) -> &wgpu::BindGroup {
@@ -134,7 +156,7 @@ impl Units {
     }
 
     fn outline(&self, patch: &Patch) -> OutlineUniform {
-        let mut outline = OutlineUniform { width: SHOOTER_WIDTH, ..OutlineUniform::zeroed() };
+        let mut outline = OutlineUniform { width: OUTLINE_WIDTH, ..OutlineUniform::zeroed() };
         for (corner, &position) in outline.corners.iter_mut().zip(patch.corners()) {
             *corner = self.unit_from_world(position).extend(1.0).to_array();
             outline.count += 1;
@@ -158,12 +180,13 @@ fn triangle_indices(mesh: &Mesh) -> Vec<u32> {
     mesh.elements.iter().map(|element| element.corners()).enumerate().flat_map(fan).collect()
 }
 
-/// The power of two that takes the radiance of the largest of some radiosities as far up as half floats reach. A power
-/// of two, so that it costs no precision.
-fn range_scale(radiosities: &[&[Rgb]]) -> f32 {
-    let largest = radiosities.iter().flat_map(|values| values.iter()).fold(Rgb::ZERO, |a, &b| a.max(b)).max_element();
-    let radiance = largest / PI;
-    if radiance > 0.0 { (LARGEST_STORED / radiance).log2().floor().exp2() } else { 1.0 }
+/// The power of two that takes the largest of some values as far up as half floats reach. A power of two, so that it
+/// costs no precision.
+fn range_scale(values: &[Rgb], units_per_value: f32) -> f32 {
+    let largest = values.iter().fold(Rgb::ZERO, |a, &b| a.max(b)).max_element() * units_per_value;
+    // Of the darkest light that there is, the quotient would leave the range of numbers.
+    let exponent = (LARGEST_STORED.log2() - largest.log2()).floor().min(f32::MAX_EXP as f32 - 2.0);
+    if largest > 0.0 { exponent.exp2() } else { 1.0 }
 }
 
 /// Never empty, because an empty buffer cannot be bound.

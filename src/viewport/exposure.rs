@@ -1,11 +1,10 @@
 //! From radiance to what a screen can show.
 
+use crate::choice::Choice;
 use crate::math::rgb::{Rgb64, luminance};
 use crate::solution::Solution;
 use crate::world::World;
 use std::f64::consts::PI;
-use std::fmt;
-use std::str::FromStr;
 
 /// How bright the picture is. An exposure of `ev` shows a radiance L [W/(m²·sr)] as 2^ev · L, where 1 is the white of a
 /// screen before its [`ToneCurve`].
@@ -38,40 +37,29 @@ pub enum ToneCurve {
     Filmic,
 }
 
-impl ToneCurve {
-    pub const ALL: [Self; 2] = [Self::Linear, Self::Filmic];
+impl Choice for ToneCurve {
+    const ALL: &'static [Self] = &[Self::Linear, Self::Filmic];
+    const KIND: &'static str = "tone curve";
 
-    /// For people.
-    pub fn label(self) -> &'static str {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Linear => "linear",
+            Self::Filmic => "filmic",
+        }
+    }
+
+    fn label(self) -> &'static str {
         match self {
             Self::Linear => "Linear",
             Self::Filmic => "Filmic",
         }
     }
 
-    /// For command lines and files.
-    pub fn name(self) -> &'static str {
+    fn meaning(self) -> &'static str {
         match self {
-            Self::Linear => "linear",
-            Self::Filmic => "filmic",
+            Self::Linear => "In proportion to radiance; what is brighter than white is cut off",
+            Self::Filmic => "Bright light fades to white as on film",
         }
-    }
-}
-
-impl fmt::Display for ToneCurve {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
-
-impl FromStr for ToneCurve {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let found = Self::ALL.into_iter().find(|curve| curve.name() == text);
-        found.ok_or_else(|| {
-            format!("no tone curve is called `{text}` (there are {})", Self::ALL.map(Self::name).join(", "))
-        })
     }
 }
 
@@ -88,8 +76,8 @@ pub fn automatic_exposure(world: &World, solution: &Solution) -> f32 {
     if mean_radiance > 0.0 { (MID_GREY / mean_radiance).log2() as f32 } else { 0.0 }
 }
 
-/// The mean radiosity [W/m²] that elements without emission will have in the end: what they have now, and their share of
-/// the unshot flux, spread evenly over all surfaces with all its reflections to come.
+/// The mean radiosity [W/m²] that elements without emission will have in the end: what they have now, and what they will
+/// reflect of the ambient light.
 fn expected_radiosity(world: &World, solution: &Solution) -> Rgb64 {
     let mut dark = Surfaces::default();
     let mut bright = Surfaces::default();
@@ -111,10 +99,7 @@ fn expected_radiosity(world: &World, solution: &Solution) -> Rgb64 {
         return Rgb64::ZERO;
     }
     let seen = if dark.area > 0.0 { &dark } else { &all };
-    let reflectance = all.reflecting / all.area;
-    let kept = 1.0 - escaping_share(solution, reflectance);
-    let ambient = solution.energy.unshot * kept / (all.area * (1.0 - reflectance * kept));
-    (seen.flux + seen.reflecting * ambient) / seen.area
+    (seen.flux + seen.reflecting * solution.ambient.as_dvec3()) / seen.area
 }
 
 /// Sums over some surfaces.
@@ -126,11 +111,4 @@ struct Surfaces {
     reflecting: Rgb64,
     /// B A, W
     flux: Rgb64,
-}
-
-/// The share of shot flux that has left the scene so far: of what surfaces took in, ρ was handed on and 1 − ρ absorbed.
-fn escaping_share(solution: &Solution, reflectance: Rgb64) -> Rgb64 {
-    let arrived = solution.energy.absorbed / (1.0 - reflectance);
-    let escaped = solution.energy.escaped;
-    (escaped / (arrived + escaped).max(Rgb64::splat(f64::MIN_POSITIVE))).clamp(Rgb64::ZERO, Rgb64::ONE)
 }

@@ -28,7 +28,9 @@ pub struct OutlineUniform {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct DisplayUniform {
+    pub outline: [f32; 3],
     pub exposure: f32,
     pub tone: u32,
     pub encode: u32,
+    pub padding: [u32; 2],
 }

@@ -1,35 +1,48 @@
 //! Draws a world and the light in it, in a window or into a file, by one path.
 //!
-//! Elements are drawn into a target of radiance in half floats, which a second pass exposes, bends by a tone curve and
-//! encodes for the screen. Only this module names wgpu: a window hands its device through [`Gpu::from_parts`].
+//! A [`View`] says which value each element has. Elements are drawn into a target of radiance in half floats, which a
+//! second pass exposes, bends by a tone curve and encodes for the screen; false colours pass as they are. Diagrams
+//! need no device. Only this module names wgpu: a window hands its device through [`Gpu::from_parts`].
 
 mod buffers;
+pub mod colour_map;
+pub mod diagram;
 mod exposure;
 mod gpu;
 pub mod gpu_types;
+mod legend;
+mod picking;
 mod picture;
 mod pipelines;
 mod readback;
+mod shading;
 mod targets;
 mod view;
 
 pub use exposure::{Exposure, ToneCurve, automatic_exposure};
 pub use gpu::{AdapterChoice, Gpu, GpuError, adapter_selector, choose_adapter, device_descriptor};
+pub use legend::Legend;
+pub use picking::pick_patch;
 pub use picture::{Picture, render_picture};
 pub use pipelines::SHADERS;
-pub use view::{Frame, View};
+pub use view::{Frame, Light, View};
 
-use crate::solution::Solution;
 use crate::world::World;
 use buffers::WorldBuffers;
 use glam::{DMat4, DVec2, DVec3};
 use gpu_types::DisplayUniform;
 use pipelines::{Pipelines, bind};
+use shading::{Quantity, Shading};
 use std::mem::size_of;
+use std::sync::Arc;
 use targets::Targets;
 
 /// Width of the outlines of elements, pixels.
 const LINE_WIDTH: f32 = 1.0;
+/// Colours of outlines, linear RGB: of the patch that shot last, and of the picked one, which stands out from all false
+/// colours.
+const SHOOTER: [f32; 3] = [0.0, 0.35, 1.0];
+const PICKED: [f32; 3] = [1.0, 0.02, 0.1];
 
 /// A world and its light on a graphics device, and the picture of them that was drawn last.
 pub struct Viewport {
@@ -37,6 +50,9 @@ pub struct Viewport {
     pipelines: Pipelines,
     encodes: bool,
     world: Option<WorldBuffers>,
+    light: Option<Light>,
+    /// What of the light is uploaded; `None` when world or light are newer.
+    uploaded: Option<Contents>,
     targets: Option<Targets>,
     /// What `targets` show, without what only presenting depends on; `None` when world or light are newer.
     drawn: Option<Drawn>,
@@ -51,9 +67,18 @@ pub struct Viewport {
 struct Drawn {
     clip_from_world: DMat4,
     size: [u32; 2],
-    view: View,
+    contents: Contents,
     wireframe: bool,
-    show_shooter: bool,
+    /// A patch.
+    outlined: Option<u32>,
+}
+
+/// What the values of elements depend on, beside world and light.
+#[derive(Clone, Copy, PartialEq)]
+struct Contents {
+    view: View,
+    bounce: usize,
+    ambient: bool,
 }
 
 impl Viewport {
@@ -70,6 +95,8 @@ impl Viewport {
             pipelines: Pipelines::new(&gpu.device, output_format),
             encodes: !output_format.is_srgb(),
             world: None,
+            light: None,
+            uploaded: None,
             targets: None,
             drawn: None,
             draws: 0,
@@ -80,17 +107,18 @@ impl Viewport {
     }
 
     /// Uploads the mesh of a world. It is dark until [`Viewport::set_light`].
-    pub fn set_world(&mut self, world: &World) {
+    pub fn set_world(&mut self, world: &Arc<World>) {
         self.world = Some(WorldBuffers::new(&self.gpu, &self.pipelines, world));
+        self.light = None;
+        self.uploaded = None;
         self.drawn = None;
     }
 
-    /// Uploads the light of a solution, which must belong to the world that was set last.
-    pub fn set_light(&mut self, world: &World, solution: &Solution) {
-        if let Some(buffers) = &mut self.world {
-            buffers.set_light(&self.gpu, world, solution);
-            self.drawn = None;
-        }
+    /// Takes over the light of the world that was set last. What a picture needs of it is uploaded when that is drawn.
+    pub fn set_light(&mut self, light: &Light) {
+        self.light = Some(light.clone());
+        self.uploaded = None;
+        self.drawn = None;
     }
 
     /// Draws what `frame` asks for, or nothing if that is what was drawn last, or if there is no world or no pixel.
@@ -113,8 +141,7 @@ impl Viewport {
 
     /// [`Viewport::draw`] with the picture moved by `shift` pixels, to the right and down.
     fn draw_shifted(&mut self, encoder: &mut wgpu::CommandEncoder, frame: &Frame, shift: DVec2) {
-        let Some(world) = &self.world else { return };
-        if frame.size.contains(&0) {
+        if self.world.is_none() || frame.size.contains(&0) {
             return;
         }
         let [width, height] = frame.size.map(f64::from);
@@ -122,11 +149,12 @@ impl Viewport {
         let wanted = Drawn {
             clip_from_world: DMat4::from_translation(moved) * frame.camera.clip_from_world((width / height) as f32),
             size: frame.size,
-            view: frame.view,
+            contents: Contents { view: frame.view, bounce: frame.bounce, ambient: frame.ambient },
             wireframe: frame.wireframe,
-            show_shooter: frame.show_shooter,
+            outlined: self.light.as_ref().and_then(|light| frame.outlined(light)),
         };
-        self.set_display(frame, world.scale);
+        self.upload_values(frame, wanted.contents);
+        self.set_display(frame);
         if self.drawn != Some(wanted) {
             self.resize(frame.size);
             self.record(encoder, &wanted);
@@ -135,12 +163,28 @@ impl Viewport {
         }
     }
 
-    fn set_display(&mut self, frame: &Frame, scale: f32) {
+    /// Uploads what `frame` shows of the light, unless that was uploaded last.
+    fn upload_values(&mut self, frame: &Frame, contents: Contents) {
+        let (Some(world), Some(light)) = (&mut self.world, &self.light) else { return };
+        if self.uploaded != Some(contents) {
+            let drawn_world = Arc::clone(&world.world);
+            world.set_values(&self.gpu, &Shading::of(&drawn_world, light, frame));
+            self.uploaded = Some(contents);
+        }
+    }
+
+    fn set_display(&mut self, frame: &Frame) {
+        let Some(world) = &self.world else { return };
+        let (shown_per_unit, tone) = match world.quantity {
+            Quantity::FluxDensity => (frame.exposure_ev.exp2(), frame.tone),
+            Quantity::Colour => (1.0, ToneCurve::Linear),
+        };
         let display = DisplayUniform {
-            // Stored radiance is scale · π · L.
-            exposure: frame.exposure_ev.exp2() / (scale * std::f32::consts::PI),
-            tone: frame.tone as u32,
+            outline: if frame.view.is_false_colour() { PICKED } else { SHOOTER },
+            exposure: shown_per_unit / world.stored_per_unit,
+            tone: tone as u32,
             encode: self.encodes.into(),
+            padding: [0; 2],
         };
         if display != self.displayed {
             self.gpu.queue.write_buffer(&self.display, 0, bytemuck::bytes_of(&display));
@@ -178,17 +222,16 @@ impl Viewport {
         let line_width = if wanted.wireframe { LINE_WIDTH } else { 0.0 };
         world.set_frame(&self.gpu, wanted.clip_from_world, wanted.size, line_width);
         let mut pass = targets.begin(encoder);
-        pass.set_pipeline(match wanted.view {
-            View::Smooth => &self.pipelines.surface_smooth,
-            View::Patches | View::Unshot => &self.pipelines.surface_constant,
-        });
-        pass.set_bind_group(0, world.surface_group(wanted.view), &[]);
+        let surface = if world.is_smooth { &self.pipelines.surface_smooth } else { &self.pipelines.surface_constant };
+        pass.set_pipeline(surface);
+        pass.set_bind_group(0, world.surface_group(), &[]);
         pass.set_index_buffer(world.indices.slice(..), wgpu::IndexFormat::Uint32);
         pass.draw_indexed(0..world.index_count, 0, 0..1);
-        if wanted.show_shooter && world.outline_edges > 0 {
+        if let Some(patch) = wanted.outlined {
+            let edges = world.set_outline(&self.gpu, patch);
             pass.set_pipeline(&self.pipelines.outline);
             pass.set_bind_group(0, world.outline_group(), &[]);
-            pass.draw(0..6, 0..world.outline_edges);
+            pass.draw(0..6, 0..edges);
         }
     }
 }

@@ -1,13 +1,13 @@
 //! A picture without a window.
 
+use super::colour_map::encoded;
 use super::readback::{from_half, read_texture};
 use super::targets::{self, SAMPLES};
-use super::{Frame, Gpu, GpuError, Viewport};
-use crate::solution::Solution;
+use super::{Frame, Gpu, GpuError, Light, Viewport};
 use crate::world::World;
 use bytemuck::{cast_slice, pod_collect_to_vec};
 use glam::DVec2;
-use std::f32::consts::PI;
+use std::sync::Arc;
 use wgpu::TextureUsages;
 
 /// A finished picture, row by row from the top left.
@@ -15,10 +15,23 @@ use wgpu::TextureUsages;
 pub struct Picture {
     /// Width and height, pixels.
     pub size: [u32; 2],
-    /// Linear radiance, W/(m²·sr), premultiplied with the fourth channel: the share of the pixel that the scene covers.
+    /// Linear radiance, W/(m²·sr), or the linear colours of false colours and diagrams, premultiplied with the fourth
+    /// channel: the share of the pixel that is covered.
     pub linear: Vec<[f32; 4]>,
-    /// As on the screen: exposed, tone-mapped and encoded, on an opaque background.
+    /// As on the screen: exposed, tone-mapped and encoded, on an opaque background. Diagrams have none: their fourth
+    /// channel is the same share.
     pub srgb: Vec<[u8; 4]>,
+}
+
+impl Picture {
+    /// A picture of linear colours in [0, 1], premultiplied with the fourth channel, that are shown as they are.
+    pub(super) fn of_colours(size: [u32; 2], linear: Vec<[f32; 4]>) -> Self {
+        let shown = |&[r, g, b, coverage]: &[f32; 4]| {
+            let [r, g, b] = [r, g, b].map(|value| if coverage > 0.0 { encoded(value / coverage) } else { 0 });
+            [r, g, b, (255.0 * coverage).round() as u8]
+        };
+        Self { size, srgb: linear.iter().map(shown).collect(), linear }
+    }
 }
 
 /// Draws a frame of a world and its light as a window would, with `samples` a pixel, rounded up to a multiple of 4.
@@ -27,8 +40,8 @@ pub struct Picture {
 /// If the picture is empty or larger than the adapter can draw, or the device fails.
 pub fn render_picture(
     gpu: &Gpu,
-    world: &World,
-    solution: &Solution,
+    world: &Arc<World>,
+    light: &Light,
     frame: &Frame,
     samples: u32,
 ) -> Result<Picture, GpuError> {
@@ -36,7 +49,7 @@ pub fn render_picture(
     gpu.check()?;
     let mut viewport = Viewport::new(gpu, FINISHED);
     viewport.set_world(world);
-    viewport.set_light(world, solution);
+    viewport.set_light(light);
     let draws = samples.div_ceil(SAMPLES).max(1);
     let mut sum = Sum::new(frame.size);
     for draw in 0..draws {
@@ -112,7 +125,7 @@ impl Viewport {
         drop(pass);
         self.gpu.queue.submit([encoder.finish()]);
         let srgb = pod_collect_to_vec(&read_texture(&self.gpu, &finished)?);
-        let stored = self.world.as_ref().map_or(1.0, |world| world.scale * PI);
+        let stored = self.world.as_ref().map_or(1.0, |world| world.stored_per_unit);
         let linear =
             mean.radiance.chunks_exact(4).map(|v| [v[0] / stored, v[1] / stored, v[2] / stored, v[3]]).collect();
         Ok(Picture { size: mean.size, linear, srgb })

@@ -2,8 +2,9 @@
 
 use super::ToneCurve;
 use crate::camera::Camera;
-use std::fmt;
-use std::str::FromStr;
+use crate::choice::Choice;
+use crate::solution::{Picked, Solution};
+use std::sync::Arc;
 
 /// Which quantity is drawn, and how it varies over an element.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
@@ -16,42 +17,82 @@ pub enum View {
     Smooth,
     /// ΔB/π: the radiance that is still to be shot.
     Unshot,
+    /// (1 − ρ) E / π: what stays in the surface, as the radiance that it would have.
+    Absorbed,
+    /// B/π after [`Frame::bounce`] bounces, as in [`View::Smooth`].
+    Bounces,
+    /// The form factor from the picked patch to every patch, in false colours.
+    FormFactors,
 }
 
 impl View {
-    pub const ALL: [Self; 3] = [Self::Patches, Self::Smooth, Self::Unshot];
-
-    /// For people.
-    pub fn label(self) -> &'static str {
+    /// What is missing for this view and how to get it; `None` where it can be drawn. What cannot be drawn is shown in
+    /// plain grey.
+    pub fn missing(self, solution: &Solution, picked: Option<&Picked>) -> Option<&'static str> {
         match self {
-            Self::Patches => "Patches",
-            Self::Smooth => "Smooth",
-            Self::Unshot => "Unshot light",
+            Self::Bounces if solution.bounces.is_empty() => {
+                Some("Only the Jacobi solver keeps the light of every bounce: choose it and run")
+            }
+            Self::FormFactors if picked.is_none() => Some("Click a patch to see the form factors from it"),
+            _ => None,
         }
     }
 
-    /// For command lines and files.
-    pub fn name(self) -> &'static str {
+    /// Whether colours stand for numbers. Exposure and tone curve do not change them.
+    pub fn is_false_colour(self) -> bool {
+        self == Self::FormFactors
+    }
+}
+
+impl Choice for View {
+    const ALL: &'static [Self] =
+        &[Self::Patches, Self::Smooth, Self::Unshot, Self::Absorbed, Self::Bounces, Self::FormFactors];
+    const KIND: &'static str = "view";
+
+    fn name(self) -> &'static str {
         match self {
             Self::Patches => "patches",
             Self::Smooth => "smooth",
             Self::Unshot => "unshot",
+            Self::Absorbed => "absorbed",
+            Self::Bounces => "bounces",
+            Self::FormFactors => "form-factors",
+        }
+    }
+
+    fn label(self) -> &'static str {
+        match self {
+            Self::Patches => "Patches",
+            Self::Smooth => "Smooth",
+            Self::Unshot => "Unshot light",
+            Self::Absorbed => "Absorbed",
+            Self::Bounces => "Bounces",
+            Self::FormFactors => "Form factors",
+        }
+    }
+
+    fn meaning(self) -> &'static str {
+        match self {
+            Self::Patches => "One colour an element: what the solver computed",
+            Self::Smooth => "Light blended between elements that lie on one surface",
+            Self::Unshot => "Light that has arrived and was not passed on yet",
+            Self::Absorbed => "Light that stays in the surface, as bright as if it were sent on",
+            Self::Bounces => "Light after a number of bounces: the partial sums of Neumann's series",
+            Self::FormFactors => "Which share of its light a picked patch sends to every other, in false colours",
         }
     }
 }
 
-impl fmt::Display for View {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
+/// The light of a world, and what its picked patch sees.
+#[derive(Clone, Debug)]
+pub struct Light {
+    pub solution: Arc<Solution>,
+    pub picked: Option<Arc<Picked>>,
 }
 
-impl FromStr for View {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let found = Self::ALL.into_iter().find(|view| view.name() == text);
-        found.ok_or_else(|| format!("no view is called `{text}` (there are {})", Self::ALL.map(Self::name).join(", ")))
+impl From<Solution> for Light {
+    fn from(solution: Solution) -> Self {
+        Self { solution: Arc::new(solution), picked: None }
     }
 }
 
@@ -62,11 +103,26 @@ pub struct Frame {
     /// Width and height, pixels.
     pub size: [u32; 2],
     pub view: View,
+    /// How many bounces of light [`View::Bounces`] shows, at most all that there are.
+    pub bounce: usize,
+    /// Whether [`View::Patches`] and [`View::Smooth`] add what the unshot light will bring on average, ρ ·
+    /// [`Solution::ambient`] (Cohen, Chen, Wallace, Greenberg 1988).
+    pub ambient: bool,
     /// Whether the outlines of elements are drawn.
     pub wireframe: bool,
-    /// Whether the patch that shot last is outlined.
+    /// Whether the patch that shot last is outlined. [`View::FormFactors`] outlines the picked patch instead.
     pub show_shooter: bool,
     /// In stops; see [`super::Exposure`].
     pub exposure_ev: f32,
     pub tone: ToneCurve,
+}
+
+impl Frame {
+    /// The patch that is outlined, if any.
+    pub(super) fn outlined(&self, light: &Light) -> Option<u32> {
+        match self.view {
+            View::FormFactors => light.picked.as_ref().map(|picked| picked.patch),
+            _ => light.solution.shooter.filter(|_| self.show_shooter),
+        }
+    }
 }

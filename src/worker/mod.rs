@@ -3,6 +3,7 @@
 //! Commands go into a mailbox, where the newest wins; snapshots come out of a slot that holds the latest. Neither side
 //! ever waits for the other.
 
+mod checks;
 mod command;
 mod history;
 mod mailbox;
@@ -10,6 +11,7 @@ mod pool;
 mod run;
 mod solver;
 
+pub use checks::{CheckReport, Checks};
 pub use command::{Command, Shown};
 pub use history::{Curve, CurvePoint};
 pub use run::{Refused, Run};

@@ -24,14 +24,16 @@ const SAME_PLANE: f32 = 1e-6;
 const LOOK_PASS: u64 = 4;
 
 /// Turns emitters whose front faces a wall or the void while their back faces the scene. Neighbours in one object turn
-/// each for itself.
+/// each for itself. Where all surfaces glow, the scene is on the side from which more of it is seen.
 pub fn turn(scene: &mut Scene, tracer: &Tracer) -> Vec<Finding> {
     let surfaces = Surfaces::new(scene);
+    let fronts = emitting_sides(scene);
+    let glows_all_over = fronts.len() == scene.polygons.len();
     let shines_away = |front: &usize| {
-        let open_view = |side: usize| open_view(scene, &surfaces, tracer, side);
-        open_view(*front) < BLIND_SHARE && open_view(front + 1) > BLIND_SHARE
+        let [front, back] = [*front, front + 1].map(|side| open_view(scene, &surfaces, tracer, side, glows_all_over));
+        if glows_all_over { back > front + BLIND_SHARE } else { front < BLIND_SHARE && back > BLIND_SHARE }
     };
-    let fronts: Vec<usize> = emitting_sides(scene).into_par_iter().filter(shines_away).collect();
+    let fronts: Vec<usize> = fronts.into_par_iter().filter(shines_away).collect();
     let mut turn = |front: usize| {
         let polygon = front / 2;
         scene.polygons[polygon] = scene.polygons[polygon].turned();
@@ -46,16 +48,16 @@ pub fn turn(scene: &mut Scene, tracer: &Tracer) -> Vec<Finding> {
     fronts.into_iter().map(&mut turn).collect()
 }
 
-/// The share of rays from a side that meet something which is neither right before it nor an emitter's front.
-fn open_view(scene: &Scene, surfaces: &Surfaces, tracer: &Tracer, side: usize) -> f32 {
+/// The share of rays from a side that meet something which is not right before it and, unless emitters count, no emitter:
+/// the inside of a lamp sees itself.
+fn open_view(scene: &Scene, surfaces: &Surfaces, tracer: &Tracer, side: usize, emitters_count: bool) -> f32 {
     let near = NEAR * (surfaces.area(side) as f32).sqrt();
     let mut stream = Stream::new(0, LOOK_PASS, side as u64);
     let open = (0..LOOKS).filter(|_| {
         let from = surfaces.place(side, tracer, &mut stream);
         surfaces.bounce(&from, tracer, &mut stream).is_some_and(|place| {
             let material = &scene.materials[scene.polygons[place.side / 2].material as usize];
-            let shines_back = material.is_emitter() && place.side.is_multiple_of(2);
-            !shines_back && from.point.distance(place.point) > near
+            (emitters_count || !material.is_emitter()) && from.point.distance(place.point) > near
         })
     });
     open.count() as f32 / LOOKS as f32

@@ -3,6 +3,7 @@
 mod ceiling;
 mod emitters;
 mod exposure;
+mod occluders;
 mod sides;
 mod surface;
 mod viewpoint;
@@ -37,6 +38,9 @@ pub struct World {
     pub viewpoint: Viewpoint,
     /// Share of the bounces of light that leave the scene, in [0, 1], of those that explored it.
     pub escape_share: f64,
+    /// Whether anything may stand between two points that light reaches. If not, whatever faces each other sees each other
+    /// whole, as far as rays can tell: they start off a surface by more than anything here is out of place.
+    pub has_occluders: bool,
     /// Longest edge of an element, m.
     pub element_size: f32,
     /// For each side, as in [`Mesh::sides`], whether light can reach it.
@@ -83,6 +87,8 @@ impl World {
         scene.findings.extend::<Vec<Finding>>(findings);
         let viewpoint =
             scene.viewpoint.unwrap_or_else(|| viewpoint::choose(&bounds, &surfaces, &tracer, &is_reached, &rooms));
+        let tolerance = tracer.offset().min(TOUCHING * bounds.radius());
+        let has_occluders = occluders::may_exist(&surfaces, &is_reached, tolerance.into());
         let (mesh, element_size) = mesh(&scene, &surfaces, &tracer, &is_reached, settings, cancel)?;
         Ok(Self {
             scene: Arc::new(scene),
@@ -91,6 +97,7 @@ impl World {
             bounds,
             viewpoint,
             escape_share,
+            has_occluders,
             element_size,
             is_reached: is_reached.into(),
         })
@@ -115,6 +122,7 @@ impl World {
             bounds: self.bounds,
             viewpoint: self.viewpoint,
             escape_share: self.escape_share,
+            has_occluders: self.has_occluders,
             element_size,
             is_reached: self.is_reached.clone(),
         })

@@ -1,5 +1,6 @@
 //! The program as it is called from a shell.
 
+mod checking;
 mod form_factors;
 mod inspecting;
 mod probing;

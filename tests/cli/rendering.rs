@@ -1,6 +1,6 @@
 //! `lightwell render`. Needs a graphics adapter; one in software will do.
 
-use crate::{assert_contains, files, folder, json, keys, printed, refusal, run, stderr, write_dark_scene};
+use crate::{assert_contains, files, folder, json, keys, number, printed, refusal, run, stderr, write_dark_scene};
 use image::ImageReader;
 use lightwell::viewport::{AdapterChoice, Gpu};
 use std::collections::BTreeMap;
@@ -47,7 +47,8 @@ fn a_png_says_how_it_was_made() {
     for (key, value) in [
         ("Scene", "cornell-box"),
         ("View", "patches"),
-        ("Method", "progressive radiosity"),
+        ("Method", "radiosity"),
+        ("Solver", "progressive"),
         ("Element size", "0.1 m"),
         ("Steps", "20"),
         ("Seed", "9"),
@@ -124,4 +125,82 @@ fn a_picture_replaces_one_of_the_same_name_only_when_it_is_whole() {
     printed(&folder, "render furnace -o box.png --element 0.25 --steps 1 --size 8x8");
     assert!(std::fs::read(&path).expect("a file").starts_with(b"\x89PNG"));
     assert_eq!(files(folder.path()), ["box.png"]);
+}
+
+fn pixels(folder: &TempDir, name: &str) -> image::RgbaImage {
+    let image = ImageReader::open(folder.path().join(name)).expect("a file").decode().expect("a picture");
+    image.into_rgba8()
+}
+
+/// A room with so few patches that its matrix takes no time.
+const SMALL: &str = "cornell-box --element 0.3 --patch-edge 1";
+
+#[test]
+fn diagrams_need_no_graphics_adapter() {
+    let folder = folder();
+    let matrix = format!("render {SMALL} -o matrix.png --view matrix --solver jacobi --adapter none-such --json");
+    let report = json(&folder, &matrix);
+    let picture = &report["picture"];
+    let zeros = picture["zeros"].as_array().expect("reasons");
+    let share: f64 = zeros.iter().map(|zero| number(&zero["share"])).sum();
+    assert!(zeros.len() == 3 && share > 0.1 && share < 1.0, "{picture}");
+    assert!(number(&picture["legend"]["high"]) <= 1.0);
+    let patches = report["patches"].as_u64().expect("a count") as u32;
+    let image = pixels(&folder, "matrix.png");
+    let magnified = 480 / patches;
+    assert!(magnified > 1 && image.dimensions() == (magnified * patches, magnified * patches), "{patches} patches");
+
+    let buffer = format!("render {SMALL} -o buffer.png --view item-buffer --patch 0 --hemicube 64 --steps 0");
+    assert_eq!(printed(&folder, &format!("{buffer} --adapter none-such")), "");
+    let image = pixels(&folder, "buffer.png");
+    assert_eq!(image.dimensions(), (3 * 128, 3 * 128));
+    assert_eq!([image.get_pixel(0, 0)[3], image.get_pixel(192, 192)[3]], [0, 255], "corners are transparent");
+}
+
+#[test]
+fn a_patch_is_picked_by_its_number_or_by_a_place_in_the_picture() {
+    if !can_draw() {
+        return;
+    }
+    let folder = folder();
+    let arguments = format!("render {SMALL} --view form-factors --steps 0 --size 64x48 --json");
+    let report = json(&folder, &format!("{arguments} -o by-place.png --pick 32,40"));
+    assert!(number(&report["picture"]["legend"]["high"]) > 0.0);
+    let patches = report["patches"].as_u64().expect("a count");
+    let by_place = pixels(&folder, "by-place.png");
+    let is_same = |patch: &u64| {
+        printed(&folder, &format!("{arguments} -o by-number.png --patch {patch}"));
+        pixels(&folder, "by-number.png") == by_place
+    };
+    assert_eq!((0..patches).filter(is_same).count(), 1);
+}
+
+#[test]
+fn what_a_view_needs_is_asked_for() {
+    let folder = folder();
+    for (view, reasons) in [
+        ("form-factors", ["--patch N", "--pick X,Y"]),
+        ("item-buffer", ["--patch N", "--pick X,Y"]),
+        ("bounces", ["--solver jacobi", "bounce"]),
+        ("matrix --patch 0", ["--solver jacobi|gauss-seidel|southwell", "matrix"]),
+        ("item-buffer --patch 0 --pick 1,1", ["--patch", "--pick"]),
+        ("item-buffer --pick 1", ["--pick", "320,240"]),
+        ("wrong", ["form-factors", "item-buffer"]),
+    ] {
+        assert_contains(&refusal(&folder, &format!("render {SMALL} -o picture.png --view {view}"), 2), &reasons);
+    }
+    for (view, reason) in [
+        ("item-buffer --patch 100000", "there is no patch 100000"),
+        ("item-buffer --pick 0,0", "no patch is seen at 0,0"),
+        ("matrix --solver jacobi --steps 0", "nothing to draw"),
+    ] {
+        assert_contains(&refusal(&folder, &format!("render {SMALL} -o picture.png --view {view}"), 1), &[reason]);
+    }
+    if can_draw() {
+        let bounces = "--view bounces --solver jacobi --steps 2 --bounce";
+        let message = refusal(&folder, &format!("render {SMALL} -o picture.png {bounces} 3"), 1);
+        assert_contains(&message, &["only 2 bounces"]);
+        printed(&folder, &format!("render {SMALL} -o picture.png {bounces} 2"));
+    }
+    assert_eq!(files(folder.path()).len(), usize::from(can_draw()));
 }

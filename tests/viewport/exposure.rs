@@ -1,7 +1,8 @@
 //! From radiance to the screen.
 
-use crate::{build, frame, gpu, motley, solution, square};
+use crate::{build, frame, gpu, light, motley, solution, square};
 use lightwell::cancel::Cancel;
+use lightwell::choice::Choice;
 use lightwell::math::rgb::Rgb;
 use lightwell::methods::radiosity::Progressive;
 use lightwell::methods::{Method, Settings, Step};
@@ -15,15 +16,15 @@ fn the_screen_shows_the_tone_curve_in_the_encoding_of_srgb() {
     let Some(gpu) = gpu() else { return };
     let world = square();
     let solution = solution(&world, motley);
-    for tone in ToneCurve::ALL {
+    for &tone in ToneCurve::ALL {
         let frame = Frame { tone, ..frame(&world, View::Smooth) };
-        let picture = render_picture(&gpu, &world, &solution, &frame, 4).expect("a picture");
+        let picture = render_picture(&gpu, &world, &light(&solution), &frame, 4).expect("a picture");
         for (value, shown) in picture.linear.iter().zip(&picture.srgb).filter(|(value, _)| value[3] == 1.0) {
             for channel in 0..3 {
                 let expected = 255.0 * encoded(toned(tone, value[channel] / 8.0));
                 let error = (f32::from(shown[channel]) - expected).abs();
                 // Half a step of rounding, and 1 % of one for powers that adapters may compute in less precision.
-                assert!(error <= 0.51, "{tone}: {value:?} is shown as {shown:?}");
+                assert!(error <= 0.51, "{tone:?}: {value:?} is shown as {shown:?}");
             }
             assert_eq!(shown[3], 255);
         }
@@ -44,7 +45,7 @@ fn encoded(linear: f32) -> f32 {
 #[test]
 fn the_automatic_exposure_of_a_furnace_foresees_its_radiosity() {
     // M_e = 1 and ρ = 0.5 everywhere: B = 2 in the end.
-    let world = Arc::new(build(Scene::open("furnace").expect("a built-in scene"), 0.5));
+    let world = build(Scene::open("furnace").expect("a built-in scene"), 0.5);
     let mid_grey = (0.18 * PI / 2.0).log2();
     let mut method = Progressive::new(Arc::clone(&world), Settings::default());
     for shot in 0..100 {
@@ -59,7 +60,7 @@ fn the_automatic_exposure_of_a_furnace_foresees_its_radiosity() {
 #[test]
 fn the_automatic_exposure_hardly_changes_while_light_spreads() {
     // Open to one side, so some light leaves, which only the first shot tells.
-    let world = Arc::new(build(Scene::open("empty-box").expect("a built-in scene"), 0.5));
+    let world = build(Scene::open("empty-box").expect("a built-in scene"), 0.5);
     let mut method = Progressive::new(Arc::clone(&world), Settings::default());
     method.step(&Cancel::default());
     let first = automatic_exposure(&world, &method.solution());

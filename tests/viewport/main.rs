@@ -3,7 +3,9 @@
 mod device;
 mod exposure;
 mod outlines;
+mod picking;
 mod radiance;
+mod views;
 
 use glam::{Vec2, Vec3};
 use lightwell::camera::Camera;
@@ -12,8 +14,9 @@ use lightwell::math::rgb::Rgb;
 use lightwell::mesh::{Element, MeshSettings};
 use lightwell::scene::{Material, Polygon, Scene, Source, Viewpoint};
 use lightwell::solution::{Closure, Counters, ElementLight, Energy, Solution};
-use lightwell::viewport::{AdapterChoice, Frame, Gpu, Picture, ToneCurve, View};
+use lightwell::viewport::{AdapterChoice, Frame, Gpu, Light, Picture, ToneCurve, View};
 use lightwell::world::World;
+use std::sync::Arc;
 use std::time::Duration;
 
 /// Rounding to a half float, which has 11 bits, and a little of single precision before and after.
@@ -35,7 +38,7 @@ fn gpu() -> Option<Gpu> {
 
 /// A square of 2 x 2 in the plane z = 0, or half of it, with its front to a camera on the z axis. It is an emitter, because
 /// only what light reaches has elements.
-fn plane(corners: &[u32], scale: f32, offset: Vec3) -> World {
+fn plane(corners: &[u32], scale: f32, offset: Vec3) -> Arc<World> {
     build(plane_scene(corners, scale, offset), 0.5 * scale)
 }
 
@@ -58,13 +61,17 @@ fn plane_scene(corners: &[u32], scale: f32, offset: Vec3) -> Scene {
     }
 }
 
-fn square() -> World {
+fn square() -> Arc<World> {
     plane(&[0, 1, 2, 3], 1.0, Vec3::ZERO)
 }
 
-fn build(scene: Scene, element_size: f32) -> World {
-    let settings = MeshSettings { element_size: Some(element_size), ..MeshSettings::default() };
-    World::build(scene, &settings, &Cancel::default()).expect("a world")
+fn build(scene: Scene, element_size: f32) -> Arc<World> {
+    build_in_patches(scene, element_size, MeshSettings::default().elements_per_patch_edge)
+}
+
+fn build_in_patches(scene: Scene, element_size: f32, elements_per_patch_edge: u32) -> Arc<World> {
+    let settings = MeshSettings { element_size: Some(element_size), elements_per_patch_edge };
+    Arc::new(World::build(scene, &settings, &Cancel::default()).expect("a world"))
 }
 
 /// A solution in which the radiosity of element i is `radiosity(i)`, and a fifth of it is unshot.
@@ -87,6 +94,10 @@ fn solution(world: &World, radiosity: impl Fn(usize) -> Rgb) -> Solution {
     }
 }
 
+fn light(solution: &Solution) -> Light {
+    solution.clone().into()
+}
+
 /// Different in every element and channel.
 fn motley(element: usize) -> Rgb {
     let i = element as f32;
@@ -101,6 +112,8 @@ fn frame(world: &World, view: View) -> Frame {
         camera: Camera::new(&world.viewpoint, &world.bounds),
         size: SIZE,
         view,
+        bounce: 0,
+        ambient: false,
         wireframe: false,
         show_shooter: false,
         exposure_ev: -3.0,

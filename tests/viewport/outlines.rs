@@ -1,7 +1,7 @@
 //! Lines over the picture: outlines of elements and of the shooter.
 
 use crate::{
-    HALF_ROUNDING, SIZE, SNAP, build, corners, depth_inside, frame, gpu, on_plane, pixels, plane, plane_scene,
+    HALF_ROUNDING, SIZE, SNAP, build, corners, depth_inside, frame, gpu, light, on_plane, pixels, plane, plane_scene,
     solution, square,
 };
 use glam::{Vec2, Vec3};
@@ -21,7 +21,7 @@ fn outlines_are_on_the_edges_of_elements_and_not_in_the_radiance() {
         let plain = frame(&world, View::Patches);
         let lined = Frame { wireframe: true, ..plain };
         let [plain, lined] =
-            [plain, lined].map(|frame| render_picture(&gpu, &world, &solution, &frame, 4).expect("one"));
+            [plain, lined].map(|frame| render_picture(&gpu, &world, &light(&solution), &frame, 4).expect("one"));
         assert!(plain.linear == lined.linear, "outlines are not light");
         for (x, y) in pixels() {
             let (point, size) = on_plane(x, y);
@@ -45,7 +45,8 @@ fn the_shooter_is_outlined() {
     let mut solution = solution(&world, |_| Rgb::splat(2.0));
     let plain = frame(&world, View::Patches);
     let outlined = Frame { show_shooter: true, ..plain };
-    let render = |solution: &Solution, frame| render_picture(&gpu, &world, solution, frame, 4).expect("a picture");
+    let render =
+        |solution: &Solution, frame| render_picture(&gpu, &world, &light(solution), frame, 4).expect("a picture");
     let without = render(&solution, &plain);
     solution.shooter = None;
     assert!(render(&solution, &outlined) == without);
@@ -89,8 +90,8 @@ fn what_is_hidden_shows_neither_light_nor_outlines() {
     let behind = world.mesh.patches.iter().position(|patch| patch.polygon == 0 && patch.is_front).expect("a patch");
     solution.shooter = Some(behind as u32);
     let frame = Frame { show_shooter: true, wireframe: true, ..frame(&world, View::Patches) };
-    let picture = render_picture(&gpu, &world, &solution, &frame, 4).expect("a picture");
+    let picture = render_picture(&gpu, &world, &light(&solution), &frame, 4).expect("a picture");
     assert!(picture.linear.iter().all(|value| value[0] <= value[3] * (1.0 + HALF_ROUNDING)));
     solution.shooter = None;
-    assert!(picture == render_picture(&gpu, &world, &solution, &frame, 4).expect("a picture"));
+    assert!(picture == render_picture(&gpu, &world, &light(&solution), &frame, 4).expect("a picture"));
 }

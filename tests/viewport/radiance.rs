@@ -1,7 +1,7 @@
 //! Radiance: which element a pixel shows, and how its value varies.
 
 use crate::{
-    HALF_ROUNDING, SIZE, SNAP, build, corners, element_at, frame, gpu, motley, on_plane, pixel, pixels, plane,
+    HALF_ROUNDING, SIZE, SNAP, build, corners, element_at, frame, gpu, light, motley, on_plane, pixel, pixels, plane,
     solution, square,
 };
 use glam::{Vec2, Vec3};
@@ -11,6 +11,7 @@ use lightwell::scene::{Scene, Viewpoint};
 use lightwell::viewport::{Picture, View, render_picture};
 use lightwell::world::World;
 use std::f32::consts::PI;
+use std::sync::Arc;
 
 fn assert_near(found: [f32; 4], radiance: Rgb, tolerance: impl Fn(f32) -> f32, place: &str) {
     for channel in 0..3 {
@@ -27,7 +28,7 @@ fn every_pixel_of_the_constant_views_has_the_radiance_of_its_element() {
     let solution = solution(&world, motley);
     let radiance = |radiosity: Rgb| radiosity / PI;
     for (view, values) in [(View::Patches, &solution.light.radiosity), (View::Unshot, &solution.light.unshot)] {
-        let picture = render_picture(&gpu, &world, &solution, &frame(&world, view), 4).expect("a picture");
+        let picture = render_picture(&gpu, &world, &light(&solution), &frame(&world, view), 4).expect("a picture");
         let mut checked = 0;
         for (x, y) in pixels() {
             if let Some(element) = element_at(&world, x, y) {
@@ -50,7 +51,8 @@ fn the_smooth_view_is_linear_over_triangles_and_bilinear_over_quads() {
         let solution = solution(&world, motley);
         let mut at_vertices = Vec::new();
         world.mesh.smooth(&solution.light.radiosity, &mut at_vertices);
-        let picture = render_picture(&gpu, &world, &solution, &frame(&world, View::Smooth), 4).expect("a picture");
+        let picture =
+            render_picture(&gpu, &world, &light(&solution), &frame(&world, View::Smooth), 4).expect("a picture");
         let mut checked = 0;
         for (x, y) in pixels() {
             let Some(element) = element_at(&world, x, y).map(|index| &world.mesh.elements[index]) else { continue };
@@ -100,7 +102,7 @@ fn a_closed_room_is_seen_into_from_outside() {
         Viewpoint { eye: Vec3::new(0.5, 0.5, 4.0), target: Vec3::splat(0.5), up: Vec3::Y, vertical_fov: 30.0 };
     let mut frame = frame(&world, View::Patches);
     frame.camera = Camera::new(&viewpoint, &world.bounds);
-    let picture = render_picture(&gpu, &world, &solution, &frame, 4).expect("a picture");
+    let picture = render_picture(&gpu, &world, &light(&solution), &frame, 4).expect("a picture");
     let back_wall = pixel(&picture, SIZE[0] / 2, SIZE[1] / 2);
     assert_near(back_wall, Rgb::new(1.0, 2.0, 3.0) / PI, |value| HALF_ROUNDING * value, "the back wall");
 }
@@ -109,9 +111,9 @@ fn a_closed_room_is_seen_into_from_outside() {
 fn pictures_do_not_depend_on_the_size_of_the_scene_or_its_distance_from_the_origin() {
     let Some(gpu) = gpu() else { return };
     let reference = square();
-    let picture = |world: &World| {
+    let picture = |world: &Arc<World>| {
         let solution = solution(world, motley);
-        render_picture(&gpu, world, &solution, &frame(world, View::Patches), 4).expect("a picture")
+        render_picture(&gpu, world, &light(&solution), &frame(world, View::Patches), 4).expect("a picture")
     };
     let expected = picture(&reference);
     // Powers of two, and offsets in which the corners are exact, so that only the drawing may differ.
@@ -128,7 +130,7 @@ fn bright_and_dark_light_both_fit_into_the_picture() {
     let world = square();
     let bright = |element: usize| if element.is_multiple_of(2) { 4e9 } else { 4e3 };
     let solution = solution(&world, |element| Rgb::splat(bright(element)));
-    let picture = render_picture(&gpu, &world, &solution, &frame(&world, View::Patches), 4).expect("a picture");
+    let picture = render_picture(&gpu, &world, &light(&solution), &frame(&world, View::Patches), 4).expect("a picture");
     for (x, y) in pixels() {
         if let Some(element) = element_at(&world, x, y) {
             let expected = Rgb::splat(bright(element) / PI);
@@ -150,7 +152,7 @@ fn more_samples_are_the_mean_of_more_places_in_a_pixel() {
     let exact = 2.0 / (size * size);
     let outline = (4.0 + 8f32.sqrt()) / size;
     let [few, many] =
-        [4, 64].map(|samples| render_picture(&gpu, &world, &solution, &frame, samples).expect("a picture"));
+        [4, 64].map(|samples| render_picture(&gpu, &world, &light(&solution), &frame, samples).expect("a picture"));
     for (picture, samples) in [(&few, 4.0_f32), (&many, 64.0)] {
         let covered: f32 = picture.linear.iter().map(|value| value[3]).sum();
         // n samples miss the share of a pixel by 1/n at most, in every pixel of the outline.

@@ -1,17 +1,24 @@
 //! A model made up for the panels, without a worker or a graphics adapter, and the window that shows it.
 
-use egui::{Rect, Vec2};
+use egui::{Rect, TextureHandle, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::NodeT;
 use lightwell::app::action::Action;
-use lightwell::app::model::{Dialog, FrameTime, Look, Model, Notice, SceneFacts, Theme};
+use lightwell::app::chart::Chart;
+use lightwell::app::diagrams::MatrixTexture;
+use lightwell::app::model::{Dialog, FrameTime, Look, LowerPanel, Model, Notice, SceneFacts, Theme};
+use lightwell::app::patch::{PatchFacts, PatchLight};
 use lightwell::app::{panels, theme};
-use lightwell::math::rgb::Rgb64;
-use lightwell::methods::Settings;
+use lightwell::hard_cases::{Row, Verdict, cases};
+use lightwell::math::rgb::{Rgb, Rgb64};
+use lightwell::methods::{FormFactorMethod, Settings, Solver};
 use lightwell::scene::{Finding, FindingKind, Severity};
 use lightwell::solution::{Closure, Counters, Energy, Solution};
-use lightwell::worker::Phase;
+use lightwell::viewport::diagram::Swatch;
+use lightwell::viewport::{Legend, View};
+use lightwell::worker::{CheckReport, Curve, CurvePoint, Phase};
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::Duration;
 
 /// What a model borrows, and the wishes that came of it.
@@ -24,6 +31,16 @@ pub struct Stage {
     pub error: Option<String>,
     pub look: Look,
     pub theme: Theme,
+    pub lower: Option<LowerPanel>,
+    pub chart: Chart,
+    pub missing: Option<&'static str>,
+    pub legend: Option<Legend>,
+    /// Whether the matrix and the item buffer are drawn.
+    pub has_pictures: bool,
+    pub pictures: Option<(MatrixTexture, TextureHandle)>,
+    pub checks: Option<CheckReport>,
+    pub patch: Option<PatchFacts<'static>>,
+    pub curves: Vec<Arc<Curve>>,
     pub notices: Vec<Notice>,
     pub dialog: Option<Dialog>,
     pub recent: Vec<PathBuf>,
@@ -42,6 +59,15 @@ impl Default for Stage {
             error: None,
             look: Look::default(),
             theme: Theme::Dark,
+            lower: None,
+            chart: Chart::default(),
+            missing: None,
+            legend: None,
+            has_pictures: false,
+            pictures: None,
+            checks: None,
+            patch: None,
+            curves: Vec::new(),
             notices: Vec::new(),
             dialog: None,
             recent: vec![PathBuf::from("/scenes/attic.obj")],
@@ -57,6 +83,9 @@ impl Stage {
     }
 
     pub fn show(&mut self, ui: &mut egui::Ui) {
+        if self.has_pictures && self.pictures.is_none() {
+            self.pictures = Some(pictures(ui.ctx()));
+        }
         let facts = SceneFacts {
             name: "cornell-box",
             patches: 800,
@@ -75,6 +104,15 @@ impl Stage {
             viewport_size: [952, 646],
             exposure_ev: 1.3,
             theme: self.theme,
+            lower: self.lower,
+            chart: self.chart,
+            missing: self.missing,
+            legend: self.legend.clone(),
+            matrix: self.pictures.as_ref().map(|(matrix, _)| matrix),
+            item_buffer: self.pictures.as_ref().map(|(_, item_buffer)| item_buffer),
+            checks: self.checks.as_ref(),
+            patch: self.patch,
+            curves: &self.curves,
             recent: &self.recent,
             notices: &self.notices,
             dialog: self.dialog.as_ref(),
@@ -120,7 +158,7 @@ pub fn solution() -> Solution {
         elapsed: Duration::from_millis(2_500),
         converged: false,
         energy: Energy { emitted: watts(10.0), absorbed: watts(6.0), unshot: watts(3.0), escaped: watts(1.0) },
-        closure: Closure { mean: 0.0123, worst: 0.07, reciprocity: 0.0 },
+        closure: Closure { mean: 0.0123, worst: 0.07, reciprocity: 2e-6 },
         counters: Counters { rays: 31_000_000, ..Counters::default() },
         shooter: None,
         ..Solution::default()
@@ -137,20 +175,109 @@ pub fn finding(kind: FindingKind, severity: Severity) -> Finding {
     }
 }
 
-/// The widest figures that can come up: watts of a large scene, many rays, a long run.
-pub fn crowded() -> Stage {
+/// A 500 × 500 matrix and an item buffer, both grey.
+fn pictures(ctx: &egui::Context) -> (MatrixTexture, TextureHandle) {
+    let texture = |name: &str| {
+        let image = egui::ColorImage::filled([8, 8], egui::Color32::GRAY);
+        ctx.load_texture(name, image, egui::TextureOptions::NEAREST)
+    };
+    let swatch = |(label, share)| Swatch { label, colour: Rgb::splat(0.5), share };
+    let legend =
+        Legend { title: "Form factor", unit: "", low: 1e-6, high: 1e-2, is_logarithmic: true, ticks: vec![1e-4, 1e-2] };
+    let matrix = MatrixTexture {
+        texture: texture("matrix"),
+        size: 500,
+        legend: Some(legend),
+        zeros: [("Same plane", 0.2), ("Faces away", 0.4), ("Occluded", 0.1)].map(swatch),
+        filled: 0.3,
+    };
+    (matrix, texture("item buffer"))
+}
+
+pub fn patch() -> PatchFacts<'static> {
+    let light = PatchLight {
+        radiosity: Rgb::new(12.0, 6.0, 3.0),
+        irradiance: Rgb::new(16.0, 8.0, 4.0),
+        unshot: Rgb::new(1.0, 0.5, 0.25),
+    };
+    PatchFacts {
+        index: 42,
+        material: "white",
+        area: 0.0123,
+        reflectance: Rgb::new(0.725, 0.71, 0.68),
+        exitance: Rgb::ZERO,
+        light: Some(light),
+        row_sum: 0.98,
+        escaping: 0.02,
+    }
+}
+
+/// Three runs, each ten times as fast as the one before.
+pub fn curves() -> Vec<Arc<Curve>> {
+    let solvers = [Solver::Progressive, Solver::Jacobi, Solver::GaussSeidel];
+    let curve = |(i, solver): (u32, Solver)| {
+        let point = |k: u64| CurvePoint {
+            steps: k * 10_u64.pow(2 - i),
+            updates: 500 * k,
+            rays: 1_000_000 * k,
+            seconds: 0.1 * k as f64,
+            unshot: 0.5_f64.powi(k as i32),
+            missing: 0.4_f64.powi(k as i32),
+        };
+        let settings = Settings { solver, ..Settings::default() };
+        Arc::new(Curve { number: i + 1, settings, points: (0..10).map(point).collect() })
+    };
+    (0_u32..).zip(solvers).map(curve).collect()
+}
+
+/// Three rows of the first case: one of each verdict.
+pub fn checks(is_finished: bool) -> CheckReport {
+    let case = cases().next().expect("there are hard cases").name;
+    let row = |quantity: &str, expected, got, tolerance, verdict| Row {
+        case,
+        quantity: quantity.to_owned(),
+        expected,
+        got,
+        tolerance,
+        guard: "a guard".to_owned(),
+        verdict,
+    };
+    let rows = vec![
+        row("holds", 0.199_824_895_698, 0.199_824_895_699, 1e-9, Verdict::Pass),
+        row("fails", 0.003_162_056_838_757_6, -1.25e-7, 0.0, Verdict::Fail),
+        row("is a limit", 123_456.789, 123_456.789, 1e-3, Verdict::Limit),
+    ];
+    CheckReport { rows, running: (!is_finished).then_some(case), is_finished }
+}
+
+/// The widest figures that can come up: watts of a large scene, many rays, a long run; a patch is picked.
+fn crowded() -> Stage {
     let mut solution = solution();
     solution.steps = 1_234_567;
     solution.elapsed = Duration::from_secs(7_500);
-    solution.counters.rays = 987_654_321_012;
+    solution.counters =
+        Counters { rays: 987_654_321_012, clamped: 123_456_789, near_field: 123_456_789, ..Counters::default() };
     let findings = vec![finding(FindingKind::DegenerateFace, Severity::Warning); 20];
     let error = Some("cannot read a scene with a long name in a folder with an even longer name: no such file".into());
     let notices =
         vec![Notice { id: 0, text: "Saved lightwell-cornell-box-1.png".into(), is_error: false, until: None }];
-    Stage { solution: Some(solution), findings, error, notices, ..Stage::default() }
+    Stage { solution: Some(solution), findings, error, notices, patch: Some(patch()), ..Stage::default() }
 }
 
-/// Every text on show and where it is, without the part of the side panel that has to be scrolled to.
+/// Windows with as much in them as can be, each with something else below the viewport.
+pub fn crowds() -> Vec<Stage> {
+    let building = Solution { preparation: Some(0.43), bounces: vec![Arc::default(); 33], ..solution() };
+    let look = Look { view: View::Bounces, ..Look::default() };
+    let settings = Settings { solver: Solver::GaussSeidel, form_factor: FormFactorMethod::Rays, ..Settings::default() };
+    vec![
+        crowded(),
+        Stage { lower: Some(LowerPanel::Convergence), curves: curves(), ..crowded() },
+        Stage { lower: Some(LowerPanel::HardCases), checks: Some(checks(false)), ..crowded() },
+        Stage { solution: Some(building), look, settings, ..Stage::default() },
+    ]
+}
+
+/// Every text on show and where it is, without what has to be scrolled to.
 pub fn texts(harness: &Harness<Stage>, size: Vec2) -> Vec<(String, Rect)> {
     let nodes = harness.root().children_recursive();
     let text = |node: egui_kittest::Node| {
@@ -161,7 +288,9 @@ pub fn texts(harness: &Harness<Stage>, size: Vec2) -> Vec<(String, Rect)> {
         let is_label = accesskit_node.role() == egui::accesskit::Role::Label;
         let text = accesskit_node.value().filter(|text| is_label && !text.is_empty())?;
         let is_in_side_panel = min.x > size.x - 320.0 && min.y > 80.0 && text != ADAPTER;
-        let is_scrolled_away = is_in_side_panel && rect.bottom() > size.y - STATUS_LINE;
+        // A list shows its last row in part.
+        let status_line = size.y - STATUS_LINE;
+        let is_scrolled_away = rect.bottom() > status_line && (is_in_side_panel || min.y < status_line);
         (!is_scrolled_away).then_some((text, rect))
     };
     nodes.filter_map(text).collect()

@@ -7,6 +7,8 @@ use lightwell::cancel::Cancel;
 use lightwell::math::polygon::vector_area;
 use lightwell::mesh::MeshSettings;
 use lightwell::world::{World, WorldError};
+use proptest::prelude::*;
+use std::sync::LazyLock;
 
 /// Quads, triangles and a skew quad, in a room.
 fn motley() -> lightwell::scene::Scene {
@@ -68,6 +70,43 @@ fn without_a_size_the_mesh_has_about_as_many_elements_as_stated() {
         // Grids are rounded up to whole cells, long thin faces most.
         let range = 0.9 * MeshSettings::DEFAULT_ELEMENTS..3.0 * MeshSettings::DEFAULT_ELEMENTS;
         assert!(range.contains(&elements), "{name}: {elements}");
+    }
+}
+
+proptest! {
+    #[test]
+    fn every_division_into_patches_covers_the_same_area(size in 0.02_f32..0.6, per_patch in prop::sample::select(vec![1, 2, 4, 8])) {
+        static MOTLEY: LazyLock<World> = LazyLock::new(|| build(motley()));
+        let settings = MeshSettings { element_size: Some(size), elements_per_patch_edge: per_patch };
+        let mesh = MOTLEY.remeshed(&settings, &Cancel::default()).expect("a world").mesh;
+
+        let of_patches: f64 = mesh.patches.iter().map(|patch| patch.area).sum();
+        let of_elements: f64 = mesh.elements.iter().map(|element| element.area).sum();
+        let of_scene = MOTLEY.mesh.area();
+        prop_assert!((of_patches / of_scene - 1.0).abs() < 1e-9 && (of_elements / of_scene - 1.0).abs() < 1e-9);
+
+        // Sides are ranges of patches, and patches are ranges of elements, one after the other.
+        let (mut next_patch, mut next_element) = (0, 0);
+        for side in mesh.sides.iter().flatten() {
+            prop_assert_eq!((side.patches.start, side.elements.start), (next_patch, next_element));
+            let cells = side.shape.cells(side.grid.elements);
+            prop_assert!(side.grid.elements.iter().all(|&count| count <= per_patch));
+            prop_assert_eq!(side.patches.len() as u32, side.shape.cells(side.grid.patches));
+            for index in side.patches.clone() {
+                let patch = &mesh.patches[index as usize];
+                prop_assert_eq!(patch.elements.clone(), next_element..next_element + cells);
+                let elements = &mesh.elements[patch.elements.start as usize..patch.elements.end as usize];
+                prop_assert!(elements.iter().all(|element| element.patch == index));
+                if per_patch == 1 {
+                    prop_assert_eq!((elements.len(), elements[0].center), (1, patch.center));
+                    prop_assert!((elements[0].area / patch.area - 1.0).abs() < 1e-12);
+                }
+                next_element += cells;
+            }
+            next_patch += side.patches.len() as u32;
+            prop_assert_eq!((side.patches.end, side.elements.end), (next_patch, next_element));
+        }
+        prop_assert_eq!((next_patch as usize, next_element as usize), (mesh.patches.len(), mesh.elements.len()));
     }
 }
 

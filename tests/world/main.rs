@@ -3,7 +3,9 @@
 mod elements;
 mod emitters;
 mod exposure;
+mod junctions;
 mod obj;
+mod occluders;
 mod probe;
 #[path = "../common/shapes.rs"]
 mod shapes;

@@ -5,6 +5,8 @@ use super::widgets::primary_button;
 use crate::app::action::Action;
 use crate::app::model::Model;
 use crate::app::theme::{Palette, UNIT};
+use crate::methods::{Settings, Solver};
+use crate::viewport::View;
 use crate::worker::{Command, Phase};
 use egui::{Align, Button, Layout, RichText, Ui};
 
@@ -12,8 +14,13 @@ use egui::{Align, Button, Layout, RichText, Ui};
 pub struct Banner<'a> {
     pub message: &'a str,
     is_error: bool,
-    remedy: &'static str,
-    remedy_hover: &'static str,
+    remedy: Option<Remedy>,
+}
+
+/// A button that helps.
+struct Remedy {
+    name: &'static str,
+    hover: &'static str,
     action: Action,
 }
 
@@ -21,25 +28,45 @@ pub fn all<'a>(model: &Model<'a>) -> Vec<Banner<'a>> {
     let crash = (*model.phase == Phase::Crashed).then(|| Banner {
         message: model.error.unwrap_or("The solver stopped because of a fault in the program."),
         is_error: true,
-        remedy: "Restart solver",
-        remedy_hover: "Starts afresh on the same scene; the light that was computed is lost",
-        action: Action::Send(Command::Reset),
+        remedy: Some(Remedy {
+            name: "Restart solver",
+            hover: "Starts afresh on the same scene; the light that was computed is lost",
+            action: Action::Send(Command::Reset),
+        }),
     });
     let error = model.error.filter(|_| crash.is_none()).map(|message| Banner {
         message,
         is_error: true,
-        remedy: "Dismiss",
-        remedy_hover: "Takes this message away",
-        action: Action::DismissError,
+        remedy: Some(Remedy { name: "Dismiss", hover: "Takes this message away", action: Action::DismissError }),
     });
     let dark = model.scene.filter(|scene| scene.is_dark()).map(|_| Banner {
         message: "Nothing in this scene emits light, so there is nothing to see.",
         is_error: false,
-        remedy: "Add a ceiling light",
-        remedy_hover: "Adds a rectangle of light below the ceiling, which is not in the file",
-        action: Action::Send(Command::AddCeilingLight),
+        remedy: Some(Remedy {
+            name: "Add a ceiling light",
+            hover: "Adds a rectangle of light below the ceiling, which is not in the file",
+            action: Action::Send(Command::AddCeilingLight),
+        }),
     });
-    [crash, error, dark].into_iter().flatten().collect()
+    let missing = model.missing.map(|message| Banner { message, is_error: false, remedy: remedy_for_view(model) });
+    [crash, error, dark, missing].into_iter().flatten().collect()
+}
+
+/// What brings a view that needs what is not there.
+fn remedy_for_view(model: &Model) -> Option<Remedy> {
+    match model.look.view {
+        View::Bounces if model.settings.solver != Solver::Jacobi => Some(Remedy {
+            name: "Use Jacobi",
+            hover: "Chooses the solver that goes bounce by bounce, and starts the light over",
+            action: Action::ApplySettings(Settings { solver: Solver::Jacobi, ..model.settings }),
+        }),
+        View::FormFactors => model.solution.and_then(|solution| solution.shooter).map(|shooter| Remedy {
+            name: "Pick the shooter",
+            hover: "Picks the patch that shot last",
+            action: Action::Send(Command::Pick(Some(shooter))),
+        }),
+        _ => None,
+    }
 }
 
 pub fn show(ui: &mut Ui, banner: &Banner, actions: &mut Vec<Action>) {
@@ -48,15 +75,14 @@ pub fn show(ui: &mut Ui, banner: &Banner, actions: &mut Vec<Action>) {
     ui.horizontal(|ui| {
         Icon::Warning.show(ui, color);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let button = if banner.action == Action::DismissError {
-                Button::new(banner.remedy)
-            } else {
-                primary_button(ui, banner.remedy)
-            };
-            if ui.add(button).on_hover_text(banner.remedy_hover).clicked() {
-                actions.push(banner.action.clone());
+            if let Some(remedy) = &banner.remedy {
+                let is_plain = remedy.action == Action::DismissError;
+                let button = if is_plain { Button::new(remedy.name) } else { primary_button(ui, remedy.name) };
+                if ui.add(button).on_hover_text(remedy.hover).clicked() {
+                    actions.push(remedy.action.clone());
+                }
+                ui.add_space(UNIT);
             }
-            ui.add_space(UNIT);
             ui.with_layout(Layout::left_to_right(Align::Center).with_main_wrap(true), |ui| {
                 ui.label(RichText::new(banner.message).color(color));
             });

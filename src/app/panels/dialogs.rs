@@ -1,6 +1,7 @@
 //! The dialogs: saving a picture, typing a path, the keys, and what this program is.
 
-use super::widgets::{Choice, heading, labelled, primary_button, row, segmented};
+use super::diagrams;
+use super::widgets::{Segment, heading, labelled, primary_button, row, segmented};
 use crate::app::action::Action;
 use crate::app::keys::BINDINGS;
 use crate::app::model::{Dialog, Model, PathPurpose, PictureRequest};
@@ -12,17 +13,28 @@ use std::path::PathBuf;
 /// Largest side of a picture, in pixels: what every graphics adapter can draw.
 const MAX_SIDE: u32 = 8192;
 
+/// Width of dialogs that are not as wide as their picture.
+const FORM_WIDTH: f32 = 100.0 * UNIT;
+
 pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     let Some(dialog) = model.dialog else { return };
     // Each kind of dialog has a size of its own.
     let id = Id::unique(("dialog", std::mem::discriminant(dialog)));
     let modal = Modal::new(id).frame(Frame::window(ui.style())).show(ui.ctx(), |ui| {
-        ui.set_width(100.0 * UNIT);
+        let is_picture = matches!(dialog, Dialog::Matrix | Dialog::ItemBuffer);
+        if !is_picture {
+            ui.set_width(FORM_WIDTH);
+        }
         match dialog {
             Dialog::Picture(request) => picture(ui, model, *request, actions),
             Dialog::Path { purpose, text } => path(ui, *purpose, text, actions),
+            Dialog::Matrix => diagrams::matrix(ui, model, actions),
+            Dialog::ItemBuffer => diagrams::item_buffer(ui, model.item_buffer),
             Dialog::Keys => keys(ui, actions),
             Dialog::About => about(ui, model, actions),
+        }
+        if is_picture {
+            close_button(ui, actions);
         }
     });
     if modal.should_close() {
@@ -37,7 +49,7 @@ fn picture(ui: &mut Ui, model: &Model, request: PictureRequest, actions: &mut Ve
     labelled(ui, "Width", "In pixels", |ui| ui.add(side(&mut edited.size[0])));
     labelled(ui, "Height", "In pixels", |ui| ui.add(side(&mut edited.size[1])));
     row(ui, "Samples", "Samples a pixel", |ui, _| {
-        let choices = SAMPLES.map(|(samples, name)| Choice {
+        let choices = SAMPLES.map(|(samples, name)| Segment {
             name,
             hover: "More samples make smoother edges and take longer",
             shortcut: None,
@@ -48,7 +60,7 @@ fn picture(ui: &mut Ui, model: &Model, request: PictureRequest, actions: &mut Ve
         }
     });
     row(ui, "Format", "What is written", |ui, _| {
-        let choices = FORMATS.map(|(format, name, hover)| Choice {
+        let choices = FORMATS.map(|(format, name, hover)| Segment {
             name,
             hover,
             shortcut: None,
@@ -78,7 +90,7 @@ fn sizes(ui: &mut Ui, model: &Model, request: &mut PictureRequest) {
         ("1920 × 1080", [1920, 1080]),
         ("3840 × 2160", [3840, 2160]),
     ];
-    let choices = sizes.map(|(name, size)| Choice {
+    let choices = sizes.map(|(name, size)| Segment {
         name,
         hover: "Width × height in pixels",
         shortcut: None,
@@ -136,6 +148,7 @@ fn keys(ui: &mut Ui, actions: &mut Vec<Action>) {
         ("Drag", "Turn around the scene"),
         ("Shift+drag or right drag", "Move sideways"),
         ("Wheel", "Move closer or away"),
+        ("Click", "Pick a patch; beside the scene, forget it"),
         ("Double click", "Fit the scene into the view"),
     ];
     table(ui, "mouse", mouse.map(|(gesture, purpose)| (gesture.to_owned(), purpose)));

@@ -1,10 +1,11 @@
 //! How bright the picture is, and how its range is bent to fit the screen.
 
-use super::widgets::{Choice, labelled, row, segmented, slider};
+use super::widgets::{Segment, labelled, row, segmented, slider};
 use crate::app::action::Action;
 use crate::app::format;
 use crate::app::model::{Look, Model};
 use crate::app::theme::UNIT;
+use crate::choice::Choice as _;
 use crate::viewport::{Exposure, ToneCurve};
 use egui::{Checkbox, Ui};
 
@@ -29,17 +30,15 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     if response.changed() {
         actions.push(Action::SetLook(Look { exposure: Exposure::Manual(ev), ..look }));
     }
-    let choices = ToneCurve::ALL.map(|tone| Choice {
+    let segment = |&tone: &ToneCurve| Segment {
         name: tone.label(),
-        hover: match tone {
-            ToneCurve::Filmic => "Bright light fades to white as on film",
-            ToneCurve::Linear => "In proportion to radiance; what is brighter than white is cut off",
-        },
+        hover: tone.meaning(),
         shortcut: None,
         is_chosen: look.tone == tone,
-    });
+    };
+    let segments: Vec<Segment> = ToneCurve::ALL.iter().map(segment).collect();
     let hover = "How the range of the light is bent to fit that of the screen";
-    if let Some(chosen) = row(ui, "Tone curve", hover, |ui, _| segmented(ui, 20.0 * UNIT, &choices)) {
+    if let Some(chosen) = row(ui, "Tone curve", hover, |ui, _| segmented(ui, 20.0 * UNIT, &segments)) {
         actions.push(Action::SetLook(Look { tone: ToneCurve::ALL[chosen], ..look }));
     }
 }

@@ -3,7 +3,8 @@
 use super::icons::Icon;
 use crate::app::action::{Action, CameraMove};
 use crate::app::keys;
-use crate::app::model::{Dialog, Look, Model, PictureRequest, Theme};
+use crate::app::model::{Dialog, Look, LowerPanel, Model, PictureRequest, Theme};
+use crate::choice::Choice;
 use crate::cli::picture::Format;
 use crate::scene::BUILTINS;
 use crate::viewport::View;
@@ -51,7 +52,7 @@ fn file_menu(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
 
 fn view_menu(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     let look = model.look;
-    for view in View::ALL {
+    for &view in View::ALL {
         let chosen = || actions.push(Action::SetLook(Look { view, ..look }));
         choice(ui, view.label(), look.view == view, Some(&keys::of_view(view)), chosen);
     }
@@ -62,6 +63,14 @@ fn view_menu(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     choice(ui, "Shooter", look.show_shooter, Some(&keys::SHOOTER), || {
         actions.push(Action::SetLook(Look { show_shooter: !look.show_shooter, ..look }));
     });
+    ui.separator();
+    for &panel in LowerPanel::ALL {
+        let is_open = model.lower == Some(panel);
+        choice(ui, panel.label(), is_open, Some(&keys::of_lower_panel(panel)), || {
+            actions.push(Action::ShowLowerPanel((!is_open).then_some(panel)));
+        });
+    }
+    item(ui, "Matrix…", Some(&keys::MATRIX), || actions.push(Action::ShowDialog(Dialog::Matrix)));
     ui.separator();
     ui.add_enabled_ui(model.scene.is_some(), |ui| {
         item(ui, "Fit scene", Some(&keys::FIT), || actions.push(Action::Camera(CameraMove::Fit)));

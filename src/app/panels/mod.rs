@@ -1,13 +1,19 @@
 //! The panels: each a function from what is on show to what the person wants. None of them changes anything itself.
 
 mod banner;
+mod chart;
+mod diagrams;
 mod dialogs;
 mod exposure;
 mod findings;
+mod hard_cases;
 mod icons;
 mod ledger;
+mod legend;
+mod lower;
 mod menu_bar;
 mod notices;
+mod patch;
 mod settings;
 mod status_line;
 mod transport;
@@ -19,6 +25,7 @@ use super::action::Action;
 use super::keys;
 use super::model::Model;
 use super::theme::UNIT;
+use crate::viewport::View;
 use egui::{CentralPanel, Frame, Margin, Panel, Rect, ScrollArea, Ui};
 
 /// Lays out the whole window. `paint` draws the scene into the viewport's rectangle, below everything else there.
@@ -35,11 +42,19 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>, paint: impl F
         .show(ui, |ui| side_panel(ui, model, actions));
     CentralPanel::no_frame().show(ui, |ui| {
         Panel::top("view bar").frame(bar_frame(ui, 6)).show(ui, |ui| view_bar::show(ui, model, actions));
+        if model.look.view == View::Bounces && model.missing.is_none() {
+            let panel = Panel::top("bounces").frame(bar_frame(ui, 6));
+            panel.show(ui, |ui| view_bar::bounces(ui, model, actions));
+        }
+        lower::show(ui, model, actions);
         for banner in banner::all(model) {
             let panel = Panel::top(("banner", banner.message)).frame(bar_frame(ui, 8));
             panel.show(ui, |ui| banner::show(ui, &banner, actions));
         }
         let area = viewport::show(ui, model, actions, paint);
+        if let Some(legend) = &model.legend {
+            legend::show(ui, area, legend);
+        }
         notices::show(ui, area, model, actions);
     });
     dialogs::show(ui, model, actions);
@@ -58,6 +73,7 @@ fn side_panel(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
         Frame::new().inner_margin(Margin::symmetric(16, 12)).show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = UNIT;
             widgets::section(ui, "Energy", |ui| ledger::show(ui, model));
+            patch::show(ui, model, actions);
             widgets::section(ui, "Exposure", |ui| exposure::show(ui, model, actions));
             widgets::section(ui, "Settings", |ui| settings::show(ui, model, actions));
             findings::show(ui, model);

@@ -1,25 +1,92 @@
-//! What the solver is told: how finely to cut, how many rays to trace, when to stop. A slider takes effect when it is
-//! let go, a number when it is entered.
+//! What the solver is told: how to solve, how finely to cut, how many rays to trace, when to stop. Only what the chosen
+//! solver and form factors use is shown. A slider takes effect when it is let go, a number when it is entered.
 
-use super::widgets::{labelled, row, slider};
+use super::widgets::{Segment, choice, labelled, row, segmented, slider};
 use crate::app::action::Action;
 use crate::app::format;
-use crate::app::model::Model;
-use crate::methods::Settings;
+use crate::app::model::{Model, SceneFacts};
+use crate::app::theme::UNIT;
+use crate::methods::{FormFactorMethod, Settings, Solver};
 use egui::{Checkbox, DragValue, Response, RichText, Ui};
+use std::ops::RangeInclusive;
 
 pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
-    element_size(ui, model, actions);
-    shadow_rays(ui, model.settings, actions);
-    stop_limit(ui, model.settings, actions);
-    seed(ui, model.settings, actions);
+    let settings = model.settings;
+    solver(ui, settings, actions);
+    if settings.solver == Solver::Progressive {
+        overshoot(ui, settings, actions);
+    }
+    form_factors(ui, settings, actions);
+    match settings.form_factor {
+        FormFactorMethod::Centroid | FormFactorMethod::Disc | FormFactorMethod::Polygon => {
+            shadow_rays(ui, settings, actions);
+        }
+        FormFactorMethod::Rays => light_rays(ui, settings, actions),
+        FormFactorMethod::Hemicube => hemicube_resolution(ui, settings, actions),
+    }
+    if let Some(scene) = model.scene {
+        element_size(ui, settings, scene, actions);
+    }
+    patch_edge(ui, settings, actions);
+    stop_limit(ui, settings, actions);
+    seed(ui, settings, actions);
     let note = "Sliders take effect when let go. All but the stop limit start the light over.";
     ui.label(RichText::new(note).small().weak());
 }
 
-fn element_size(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
-    let Some(scene) = model.scene else { return };
-    let mut settings = model.settings;
+fn solver(ui: &mut Ui, settings: Settings, actions: &mut Vec<Action>) {
+    let hover = "How the equations B = M + ρ Σ F B are solved";
+    if let Some(solver) = choice(ui, "Solver", hover, settings.solver) {
+        actions.push(Action::ApplySettings(Settings { solver, ..settings }));
+    }
+}
+
+fn overshoot(ui: &mut Ui, settings: Settings, actions: &mut Vec<Action>) {
+    let mut overshoot = settings.overshoot;
+    let hover = "Each shot also carries the light that its patch is expected to receive later; what was too much is \
+                 taken back by later shots";
+    let response = row(ui, "Overshoot", hover, |ui, _| ui.add(Checkbox::new(&mut overshoot, "Shoot ahead")));
+    if response.accessible_name("Overshoot").on_hover_text(hover).changed() {
+        actions.push(Action::ApplySettings(Settings { overshoot, ..settings }));
+    }
+}
+
+fn form_factors(ui: &mut Ui, settings: Settings, actions: &mut Vec<Action>) {
+    let hover = "How the share of the light of one patch that arrives at another is computed";
+    if let Some(form_factor) = choice(ui, "Form factors", hover, settings.form_factor) {
+        actions.push(Action::ApplySettings(Settings { form_factor, ..settings }));
+    }
+}
+
+fn shadow_rays(ui: &mut Ui, mut settings: Settings, actions: &mut Vec<Action>) {
+    let hover = "Rays from each receiving point to the shooter, which find out how much of it is in sight";
+    let response = count(ui, "Shadow rays", hover, &mut settings.shadow_rays, 1..=Settings::MAX_SHADOW_RAYS);
+    apply_when_done(&response, settings, actions);
+}
+
+fn light_rays(ui: &mut Ui, mut settings: Settings, actions: &mut Vec<Action>) {
+    let hover = "Rays that carry all the emitted flux; a patch shoots its share of them. Four times the rays halve the \
+                 noise.";
+    let range = Settings::MIN_LIGHT_RAYS..=Settings::MAX_LIGHT_RAYS;
+    let response = count(ui, "Light rays", hover, &mut settings.light_rays, range);
+    apply_when_done(&response, settings, actions);
+}
+
+fn hemicube_resolution(ui: &mut Ui, mut settings: Settings, actions: &mut Vec<Action>) {
+    let hover = "Cells along the edge of a hemicube's top face; what is smaller than a cell may be missed";
+    let range = Settings::MIN_HEMICUBE_RESOLUTION..=Settings::MAX_HEMICUBE_RESOLUTION;
+    let response = count(ui, "Resolution", hover, &mut settings.hemicube_resolution, range);
+    apply_when_done(&response, settings, actions);
+}
+
+/// A slider for a number of things, on a logarithmic scale.
+fn count(ui: &mut Ui, label: &str, hover: &str, value: &mut u32, range: RangeInclusive<u32>) -> Response {
+    labelled(ui, label, hover, |ui| {
+        slider(ui, value, range, true, |value| format::count(value as u64), |text| format::parse(text, ""))
+    })
+}
+
+fn element_size(ui: &mut Ui, mut settings: Settings, scene: SceneFacts, actions: &mut Vec<Action>) {
     let mut automatic = settings.mesh.element_size.is_none();
     let hover = "Chooses the size of the elements so that they show soft shadows and shots are quick";
     let response = row(ui, "Mesh", hover, |ui, _| ui.add(Checkbox::new(&mut automatic, "Automatic")));
@@ -38,20 +105,23 @@ fn element_size(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     apply_when_done(&response, settings, actions);
 }
 
-fn shadow_rays(ui: &mut Ui, mut settings: Settings, actions: &mut Vec<Action>) {
-    let hover = "Rays from each receiving point to the shooter, which find out how much of it is in sight";
-    let response = labelled(ui, "Shadow rays", hover, |ui| {
-        let rays = &mut settings.shadow_rays;
-        slider(
-            ui,
-            rays,
-            1..=Settings::MAX_SHADOW_RAYS,
-            true,
-            |rays| format::count(rays as u64),
-            |text| format::parse(text, ""),
-        )
+/// Elements along the edge of a patch that can be chosen: each halves the edge of the one before.
+const PATCH_EDGES: [(u32, &str); 4] = [(1, "1"), (2, "2"), (4, "4"), (8, "8")];
+
+fn patch_edge(ui: &mut Ui, mut settings: Settings, actions: &mut Vec<Action>) {
+    let elements = &mut settings.mesh.elements_per_patch_edge;
+    let segments = PATCH_EDGES.map(|(edge, name)| Segment {
+        name,
+        hover: "Elements along the edge of a patch. With 1, every element shoots by itself, and a matrix has as many \
+                rows as there are elements.",
+        shortcut: None,
+        is_chosen: edge == *elements,
     });
-    apply_when_done(&response, settings, actions);
+    let hover = "How many elements, which receive light, lie along the edge of a patch, which shoots it";
+    if let Some(chosen) = row(ui, "Patch edge", hover, |ui, _| segmented(ui, 10.0 * UNIT, &segments)) {
+        *elements = PATCH_EDGES[chosen].0;
+        actions.push(Action::ApplySettings(settings));
+    }
 }
 
 fn stop_limit(ui: &mut Ui, mut settings: Settings, actions: &mut Vec<Action>) {

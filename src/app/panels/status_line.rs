@@ -18,7 +18,7 @@ pub fn show(ui: &mut Ui, model: &Model) {
                     scene(ui, facts);
                 }
                 if let Some(solution) = model.solution {
-                    run(ui, solution);
+                    run(ui, model, solution);
                 }
                 ui.label(RichText::new(phase(model.phase)).small().weak());
             });
@@ -32,8 +32,13 @@ fn scene(ui: &mut Ui, facts: &SceneFacts) {
     item(ui, format::counted(facts.elements as u64, "element"), "Elements, the pieces of patches, receive light");
 }
 
-fn run(ui: &mut Ui, solution: &Solution) {
-    item(ui, format::counted(solution.steps, "shot"), "How often a patch has shot its light into the scene");
+fn run(ui: &mut Ui, model: &Model, solution: &Solution) {
+    let hover = if model.sweeps() {
+        "How often all patches have gathered light from all others"
+    } else {
+        "How often a patch has shot its light into the scene"
+    };
+    item(ui, format::counted(solution.steps, model.step_name()), hover);
     let seconds = solution.elapsed.as_secs_f64();
     let rate = if seconds > 0.0 { solution.counters.rays as f64 / seconds } else { 0.0 };
     item(

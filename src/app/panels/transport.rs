@@ -8,6 +8,7 @@ use crate::app::keys;
 use crate::app::model::Model;
 use crate::app::theme::{Palette, UNIT};
 use crate::math::rgb::Rgb64;
+use crate::solution::Solution;
 use crate::worker::{Command, Phase};
 use egui::accesskit::Role;
 use egui::{
@@ -19,7 +20,7 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
         ui.add_enabled_ui(model.can_run(), |ui| {
             run_button(ui, model, actions);
             ui.add_space(2.0 * UNIT);
-            step_buttons(ui, actions);
+            step_buttons(ui, model, actions);
         });
         ui.add_space(2.0 * UNIT);
         ui.add_enabled_ui(model.scene.is_some(), |ui| {
@@ -36,9 +37,10 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
 fn run_button(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     let palette = Palette::of(ui.visuals());
     let (icon, name, hover, color) = if model.is_running() {
-        (Icon::Pause, "Pause", "Stops after the present shot", ui.visuals().text_color())
+        let hover = format!("Stops before the next {}", model.step_name());
+        (Icon::Pause, "Pause", hover, ui.visuals().text_color())
     } else {
-        (Icon::Run, "Run", "Shoots light until the stop limit is reached", palette.on_accent)
+        (Icon::Run, "Run", "Spreads light until the stop limit is reached".to_owned(), palette.on_accent)
     };
     let icon_place = IdSalt::new("icon");
     let place = Atom::custom(icon_place, vec2(Icon::SIZE, Icon::SIZE));
@@ -50,65 +52,83 @@ fn run_button(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     if let Some(rect) = button.rect(icon_place) {
         icon.paint(ui.painter(), rect, color);
     }
-    if button.response.on_hover_text(with_key(ui, hover, Some(&keys::RUN))).clicked() {
+    if button.response.on_hover_text(with_key(ui, &hover, Some(&keys::RUN))).clicked() {
         actions.push(keys::run_or_pause(model));
     }
 }
 
-fn step_buttons(ui: &mut Ui, actions: &mut Vec<Action>) {
+fn step_buttons(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     ui.label("Step");
     ui.spacing_mut().item_spacing.x = UNIT;
     let steps = [(1, keys::STEP_1), (10, keys::STEP_10), (100, keys::STEP_100)];
-    for (shots, shortcut) in steps {
-        let button = Button::new(shots.to_string()).min_size(ui.spacing().interact_size);
-        let hover = with_key(ui, &format!("Does {}, then pauses", format::counted(shots, "shot")), Some(&shortcut));
-        if ui.add(button).accessible_name(format!("Step {shots}")).on_hover_text(hover).clicked() {
-            actions.push(Action::Send(Command::Step(shots)));
+    for (steps, shortcut) in steps {
+        let button = Button::new(steps.to_string()).min_size(ui.spacing().interact_size);
+        let sentence = format!("Does {}, then pauses", format::counted(steps, model.step_name()));
+        let hover = with_key(ui, &sentence, Some(&shortcut));
+        if ui.add(button).accessible_name(format!("Step {steps}")).on_hover_text(hover).clicked() {
+            actions.push(Action::Send(Command::Step(steps)));
         }
     }
 }
 
-/// A bar of the flux that has been shot, with a tick at every tenth of what is left.
+/// A bar of the flux that has been shot, with a tick at every tenth of what is left; while a matrix is built, how much
+/// of it there is.
 fn progress(ui: &mut Ui, model: &Model) -> Response {
     let size = vec2(ui.available_width(), ui.spacing().interact_size.y);
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
     let text = progress_text(model);
     response.widget_info(|| WidgetInfo::labeled(Role::ProgressIndicator, true, format!("Progress: {text}")));
     if ui.is_rect_visible(rect) {
-        paint_progress(ui, rect, model, &text);
+        paint_progress(ui, rect, model, text);
     }
-    response.on_hover_text(format!(
-        "How much of the emitted light is still unshot, on a logarithmic scale from all of it down to the stop limit \
-         of {}",
-        format::percent(model.settings.unshot_limit)
-    ))
+    response.on_hover_text(if model.preparation().is_some() {
+        "How much of the matrix of form factors is there. The first light moves when it is whole.".to_owned()
+    } else {
+        format!(
+            "How much of the emitted light is still unshot, on a logarithmic scale from all of it down to the stop \
+             limit of {}",
+            format::percent(model.settings.unshot_limit)
+        )
+    })
 }
 
 fn progress_text(model: &Model) -> String {
     match (model.phase, model.solution) {
         (Phase::Loading(_), _) => "Loading".to_owned(),
         (_, None) => String::new(),
-        (_, Some(solution)) if solution.energy.emitted == Rgb64::ZERO => "No light".to_owned(),
-        (_, Some(solution)) if solution.converged => "Converged".to_owned(),
-        (_, Some(solution)) => format!("{} unshot", format::percent(solution.energy.unshot_share())),
+        (_, Some(solution)) => solution_text(solution),
     }
 }
 
-fn paint_progress(ui: &Ui, rect: Rect, model: &Model, text: &str) {
+fn solution_text(solution: &Solution) -> String {
+    match solution.preparation {
+        Some(share) => format!("Building matrix {}", format::percent_whole(share)),
+        None if solution.energy.emitted == Rgb64::ZERO => "No light".to_owned(),
+        None if solution.converged => "Converged".to_owned(),
+        None => format!("{} unshot", format::percent(solution.energy.unshot_share())),
+    }
+}
+
+fn paint_progress(ui: &Ui, rect: Rect, model: &Model, text: String) {
     let palette = Palette::of(ui.visuals());
     let painter = ui.painter_at(rect);
-    let text_width = 28.0 * UNIT;
+    let galley = painter.layout_no_wrap(text, FontId::proportional(14.0), ui.visuals().text_color());
+    let text_width = (galley.size().x + 3.0 * UNIT).max(28.0 * UNIT);
     let bar = Rect::from_min_max(
         pos2(rect.left(), rect.top() + UNIT),
         pos2((rect.right() - text_width).max(rect.left()), rect.top() + 3.0 * UNIT),
     );
     painter.rect_filled(bar, UNIT, ui.visuals().widgets.inactive.bg_fill);
-    let filled = bar.with_max_x(bar.left() + bar.width() * model.progress());
-    painter.rect_filled(filled, UNIT, palette.accent);
-    ticks(ui, &painter, bar, model.settings.unshot_limit);
-    let color = ui.visuals().text_color();
-    let right = pos2(rect.right(), rect.center().y);
-    painter.text(right, Align2::RIGHT_CENTER, text, FontId::proportional(14.0), color);
+    let (filled, color) = match model.preparation() {
+        Some(share) => (share, palette.absorbed),
+        None => (model.progress(), palette.accent),
+    };
+    painter.rect_filled(bar.with_max_x(bar.left() + bar.width() * filled), UNIT, color);
+    if model.preparation().is_none() {
+        ticks(ui, &painter, bar, model.settings.unshot_limit);
+    }
+    let place = Align2::RIGHT_CENTER.anchor_size(pos2(rect.right(), rect.center().y), galley.size());
+    painter.galley(place.min, galley, ui.visuals().text_color());
 }
 
 /// A tick below the bar at each tenth of what is left, from 100 % at its left end to the limit at its right end.

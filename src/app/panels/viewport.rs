@@ -39,6 +39,9 @@ fn camera(ui: &Ui, response: &Response, actions: &mut Vec<Action>) {
         let pans = ui.input(|input| input.modifiers.shift) || !response.dragged_by(PointerButton::Primary);
         actions.push(Action::Camera(if pans { CameraMove::Pan(drag) } else { CameraMove::Orbit(drag) }));
     }
+    if let Some(position) = response.interact_pointer_pos().filter(|_| response.clicked_by(PointerButton::Primary)) {
+        actions.push(Action::Pick((position - response.rect.min) / response.rect.size()));
+    }
     if response.double_clicked_by(PointerButton::Primary) {
         actions.push(Action::Camera(CameraMove::Fit));
     }

@@ -1,9 +1,10 @@
 //! The few widgets that several panels share.
 
 use crate::app::theme::{Palette, UNIT};
+use crate::choice::Choice;
 use egui::emath::Numeric;
 use egui::{
-    Align, Button, CornerRadius, KeyboardShortcut, Layout, Response, RichText, Sense, Slider, SliderClamping,
+    Align, Button, ComboBox, CornerRadius, KeyboardShortcut, Layout, Response, RichText, Sense, Slider, SliderClamping,
     TextStyle, Ui, vec2,
 };
 use std::ops::RangeInclusive;
@@ -68,6 +69,29 @@ pub fn slider<'a, N: Numeric>(
 /// Width of a slider's value.
 const VALUE_WIDTH: f32 = 18.0 * UNIT;
 
+/// A row of a form in which one of a few is chosen; returns another one if it was.
+pub fn choice<C: Choice>(ui: &mut Ui, label: &str, hover: &str, chosen: C) -> Option<C> {
+    row(ui, label, hover, |ui, label| {
+        let (picked, response) = combo(ui, ui.available_width() - UNIT, chosen);
+        response.labelled_by(label.id);
+        picked
+    })
+}
+
+/// A box that drops down to show all of a few; returns another one if it was chosen.
+pub fn combo<C: Choice>(ui: &mut Ui, width: f32, chosen: C) -> (Option<C>, Response) {
+    let mut picked = None;
+    let combo = ComboBox::from_id_salt(C::KIND).width(width).selected_text(chosen.label());
+    let shown = combo.show_ui(ui, |ui| {
+        for &choice in C::ALL {
+            if ui.selectable_label(choice == chosen, choice.label()).on_hover_text(choice.meaning()).clicked() {
+                picked = Some(choice).filter(|picked| *picked != chosen);
+            }
+        }
+    });
+    (picked, shown.response.on_hover_text(chosen.meaning()))
+}
+
 /// A row of a table of figures: a name at the left, a value at the right.
 pub fn figure(ui: &mut Ui, name: &str, value: impl Into<RichText>, hover: &str) {
     figure_row(ui, hover, |ui| {
@@ -85,27 +109,27 @@ pub fn figure_row(ui: &mut Ui, hover: &str, contents: impl FnOnce(&mut Ui)) {
 }
 
 /// One choice of a row of buttons.
-pub struct Choice<'a> {
+pub struct Segment<'a> {
     pub name: &'a str,
     pub hover: &'a str,
     pub shortcut: Option<KeyboardShortcut>,
     pub is_chosen: bool,
 }
 
-/// Buttons of equal width in one frame, of which one is chosen; returns the one that was clicked.
-pub fn segmented(ui: &mut Ui, width: f32, choices: &[Choice]) -> Option<usize> {
+/// Buttons of at least this width in one frame, of which one is chosen; returns the one that was clicked.
+pub fn segmented(ui: &mut Ui, width: f32, segments: &[Segment]) -> Option<usize> {
     let mut clicked = None;
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 1.0;
-        let last = choices.len() - 1;
+        let last = segments.len() - 1;
         let radius = |inner: bool| if inner { 0 } else { 6 };
-        for (i, choice) in choices.iter().enumerate() {
+        for (i, segment) in segments.iter().enumerate() {
             let (left, right) = (radius(i > 0), radius(i < last));
-            let button = Button::new(choice.name)
-                .selected(choice.is_chosen)
+            let button = Button::new(segment.name)
+                .selected(segment.is_chosen)
                 .corner_radius(CornerRadius { nw: left, sw: left, ne: right, se: right })
                 .min_size(vec2(width, ui.spacing().interact_size.y));
-            let response = ui.add(button).on_hover_text(with_key(ui, choice.hover, choice.shortcut.as_ref()));
+            let response = ui.add(button).on_hover_text(with_key(ui, segment.hover, segment.shortcut.as_ref()));
             if response.clicked() {
                 clicked = Some(i);
             }

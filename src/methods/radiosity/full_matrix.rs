@@ -1,6 +1,6 @@
 //! Radiosity by the full matrix: all form factors first, then one of three ways to solve the equations with them.
 
-use super::form_factor::{FormFactors, Outcome, Shot};
+use super::form_factor::{FormFactors, Outcome};
 use super::matrix::{Columns, Matrix};
 use super::relax::{Relaxation, System};
 use super::surfaces::Surfaces;
@@ -100,15 +100,7 @@ impl FullMatrix {
             building.columns.push(&building.form_factors, &Outcome::default());
             return Step::Prepared;
         }
-        let shot = Shot {
-            world: &self.world,
-            patch: patch as u32,
-            relative_radiosity: 1.0,
-            flux_share: self.surfaces.area[patch] / self.surfaces.total_area(),
-            seed: self.settings.seed,
-            pass: patch as u64,
-            cancel,
-        };
+        let shot = self.surfaces.expected_shot(&self.world, patch, self.settings.seed, cancel);
         let outcome = building.method.toward(&shot, &mut building.form_factors);
         if cancel.is_requested() {
             return Step::Cancelled;

@@ -10,10 +10,11 @@ use crate::solution::{Closure, FormFactorMatrix, Zero};
 use crate::world::World;
 use std::sync::Arc;
 
-/// Symmetric scaling ends when no row is further from closing than this, or after [`MAX_SWEEPS`].
-const CLOSED: f64 = 1e-13;
-/// A matrix of a scene whose form factors are any good takes some ten sweeps.
-const MAX_SWEEPS: u32 = 100;
+/// Symmetric scaling ends when no row is further from closing than this, or after [`MAX_SWEEPS`]; what is left is up to
+/// [`Matrix::closing`].
+const CLOSED: f64 = 1e-10;
+/// Some tens are enough, but for patches that see little but each other.
+const MAX_SWEEPS: u32 = 200;
 
 /// Form factors as they come from a method, one column after the other.
 pub struct Columns {
@@ -78,9 +79,9 @@ impl Matrix {
         let raw = exchanges(mesh, &toward);
         let mut exchange = symmetric(&raw);
         let closure = closure(mesh, &raw, &escaping);
-        let wanted: Vec<f64> =
-            mesh.patches.iter().zip(&escaping).map(|(patch, escaping)| patch.area * (1.0 - escaping)).collect();
-        close(&mut exchange, &wanted);
+        let area: Vec<f64> = mesh.patches.iter().map(|patch| patch.area).collect();
+        let wanted: Vec<f64> = area.iter().zip(&escaping).map(|(area, escaping)| area * (1.0 - escaping)).collect();
+        close(&mut exchange, &wanted, &area);
         let elements = spread(mesh, &toward, &raw, &exchange);
         drop(toward);
         let escaping = escaping.into_iter().enumerate();
@@ -92,10 +93,8 @@ impl Matrix {
             if sum > 0.0 { wanted[i] / sum } else { 0.0 }
         });
         let closing = closing.collect();
-        for (i, patch) in mesh.patches.iter().enumerate() {
-            for value in exchange.row_mut(i).1 {
-                *value /= patch.area;
-            }
+        for (i, area) in area.iter().enumerate() {
+            exchange.row_mut(i).1.iter_mut().for_each(|value| *value /= area);
         }
         let zeros = Arc::new(zeros(world, &exchange));
         Self {
@@ -201,8 +200,9 @@ fn closure(mesh: &Mesh, raw: &Sparse, escaping: &[f64]) -> Closure {
     }
 }
 
-/// Scales a symmetric matrix to these row sums, D M D for M, as far as that is possible.
-fn close(matrix: &mut Sparse, wanted: &[f64]) {
+/// Scales a symmetric matrix to these row sums, D M D for M, as far as that is possible: row after row, as its factor must
+/// be while the others stay. That descends to the minimum of ½ dᵀ M d − Σ w log d, which is where all rows sum to w.
+fn close(matrix: &mut Sparse, wanted: &[f64], area: &[f64]) {
     let mut scale = vec![1.0; matrix.rows()];
     for _ in 0..MAX_SWEEPS {
         let mut worst = 0.0_f64;
@@ -210,10 +210,8 @@ fn close(matrix: &mut Sparse, wanted: &[f64]) {
             let (columns, values) = matrix.row(i);
             let sum: f64 = columns.iter().zip(values).map(|(&j, value)| scale[j as usize] * value).sum();
             if sum > 0.0 && wanted[i] > 0.0 {
-                let now = scale[i] * sum;
-                worst = worst.max((now / wanted[i] - 1.0).abs());
-                // Half of the way in the logarithm: the other half is the other patches' to go.
-                scale[i] *= (wanted[i] / now).sqrt();
+                worst = worst.max((scale[i] * sum / wanted[i] - 1.0).abs());
+                scale[i] = wanted[i] / sum;
             }
         }
         if worst < CLOSED {
@@ -224,7 +222,8 @@ fn close(matrix: &mut Sparse, wanted: &[f64]) {
         let here = scale[i];
         let (columns, values) = matrix.row_mut(i);
         for (&j, value) in columns.iter().zip(values) {
-            *value *= here * scale[j as usize];
+            // No patch sends more than all it has.
+            *value = (*value * here * scale[j as usize]).min(area[i]).min(area[j as usize]);
         }
     }
 }

@@ -1,6 +1,7 @@
 //! What one patch sees.
 
-use super::form_factor::{FormFactors, Hemicubes, Shot};
+use super::form_factor::{FormFactors, Hemicubes};
+use super::surfaces::Surfaces;
 use crate::cancel::Cancel;
 use crate::methods::Settings;
 use crate::solution::Picked;
@@ -11,15 +12,8 @@ use std::sync::Arc;
 pub fn pick(world: &World, settings: &Settings, patch: u32) -> Picked {
     let mesh = &world.mesh;
     let shooter = &mesh.patches[patch as usize];
-    let shot = Shot {
-        world,
-        patch,
-        relative_radiosity: 1.0,
-        flux_share: if shooter.area > 0.0 { shooter.area / mesh.area() } else { 0.0 },
-        seed: settings.seed,
-        pass: u64::from(patch),
-        cancel: &Cancel::default(),
-    };
+    let never = Cancel::default();
+    let shot = Surfaces::new(world).expected_shot(world, patch as usize, settings.seed, &never);
     let mut form_factors = vec![0.0; mesh.elements.len()];
     let outcome = FormFactors::new(mesh, settings).toward(&shot, &mut form_factors);
     // Reciprocity turns what elements see of the patch into what the patch sees of them.

@@ -1,5 +1,7 @@
 //! What patches do with light, and sums over them that every solver needs.
 
+use super::form_factor::Shot;
+use crate::cancel::Cancel;
 use crate::math::rgb::{Rgb64, total};
 use crate::mesh::{Mesh, Patch};
 use crate::solution::ElementLight;
@@ -61,6 +63,32 @@ impl Surfaces {
         let mean = self.flux(&self.reflectance) / area;
         let arriving = 1.0 - self.escape_share;
         flux * arriving / (area * (Rgb64::ONE - mean * arriving))
+    }
+
+    /// M_e + ρ E with the ambient irradiance E of all the emitted flux, W/m²: what patches are expected to shoot in all.
+    fn expected_radiosity(&self, patch: usize) -> Rgb64 {
+        self.exitance[patch] + self.reflectance[patch] * self.ambient(self.emitted)
+    }
+
+    /// All that a patch is expected to shoot, as one shot.
+    pub fn expected_shot<'a>(&self, world: &'a World, patch: usize, seed: u64, cancel: &'a Cancel) -> Shot<'a> {
+        let radiosity = total(self.expected_radiosity(patch));
+        let irradiance = total(self.ambient(self.emitted));
+        let emitted = total(self.emitted);
+        Shot {
+            world,
+            patch: patch as u32,
+            // In a scene without light, all patches matter alike.
+            relative_radiosity: if irradiance > 0.0 { radiosity / irradiance } else { 1.0 },
+            flux_share: if emitted > 0.0 {
+                radiosity * self.area[patch] / emitted
+            } else {
+                self.area[patch] / self.total_area()
+            },
+            seed,
+            pass: patch as u64,
+            cancel,
+        }
     }
 
     /// Σ (1 − ρ) A E: what stays in the surfaces, W. `irradiance` has one entry a patch.

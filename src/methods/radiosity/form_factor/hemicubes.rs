@@ -4,16 +4,19 @@ use super::gather::Sight;
 use super::hemicube::{Hemicube, Item};
 use super::polygon::Kernel;
 use super::{Outcome, Shot, clamped};
+use crate::math::random::sobol2;
 use crate::mesh::{Element, Mesh, Patch};
 use crate::methods::Settings;
 use crate::solution::{Counters, ItemBuffer};
-use crate::world::World;
+use crate::world::{World, is_covered};
 use glam::Vec3A;
 use rayon::prelude::*;
 
 /// Receivers nearer than this many radii of the shooter see it otherwise than from its middle: the five-times rule, at which
 /// a point in place of a patch is wrong by a few percent.
 const NEAR_RADII: f32 = 5.0;
+/// Points tried on a patch whose centre is covered.
+const TRIES: u32 = 256;
 
 /// A hemicube, and the scene as it draws it.
 pub struct Hemicubes {
@@ -74,20 +77,23 @@ impl Hemicubes {
     }
 
     fn draw(&mut self, world: &World, patch: &Patch) {
-        let center = world.tracer.lift(exposed_middle(&world.mesh, patch), patch.normal);
-        self.hemicube.draw(center, patch.normal, &self.items);
+        self.hemicube.draw(exposed_middle(world, patch), patch.normal, &self.items);
     }
 }
 
-/// The centre of a patch, or, where part of the patch is covered, of its most exposed element: from under a cover nothing
-/// is seen.
-fn exposed_middle(mesh: &Mesh, patch: &Patch) -> Vec3A {
+/// The centre of a patch, or, where something stands on it, another point of it that is not covered: from under a cover
+/// nothing is seen. Lifted off the patch.
+fn exposed_middle(world: &World, patch: &Patch) -> Vec3A {
+    let World { mesh, tracer, .. } = world;
+    let center = tracer.lift(patch.center, patch.normal);
     let elements = &mesh.elements[patch.elements.start as usize..patch.elements.end as usize];
     if elements.iter().all(|element| element.exposed == 1.0) {
-        return patch.center;
+        return center;
     }
-    let most = elements.iter().reduce(|best, next| if next.exposed > best.exposed { next } else { best });
-    most.map_or(patch.center, |element| element.center)
+    let points = patch.region().sampler(tracer.offset() * patch.normal);
+    let others = (0..TRIES).map(|i| points.point(sobol2(i, 0, 0)));
+    let mut all = std::iter::once(center).chain(others);
+    all.find(|point| !is_covered(mesh, tracer, *point, patch.normal)).unwrap_or(center)
 }
 
 /// The closed form for receivers that are too near for a point to stand for the shooter.

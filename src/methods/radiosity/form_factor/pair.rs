@@ -2,8 +2,8 @@
 
 use super::centroid::{Facet, centroid, disc};
 use super::hemicube::{Hemicube, Item};
-use super::polygon::GAUSS;
-use crate::math::polygon::{area_form_factor, form_factor, occluded_area_form_factor, vector_area};
+use super::polygon::TOLERANCE;
+use crate::math::polygon::{Plate, area_form_factor, form_factor, occluded_area_form_factor, vector_area};
 use crate::math::random::{hash, sobol2};
 use crate::math::warp::{cosine_hemisphere, frame};
 use crate::mesh::Region;
@@ -17,6 +17,8 @@ const FROM: u32 = 0;
 const TO: u32 = 1;
 /// The reference with occluders is good to about this much.
 const REFERENCE_TOLERANCE: f64 = 1e-6;
+/// Gauss-Legendre points of order 2 on [0, 1]; they have equal weights.
+const GAUSS: [f32; 2] = [0.211_324_87, 0.788_675_1];
 /// A sequence of Sobol points is good for 2^16; more points take several.
 const SEQUENCE: u32 = 1 << 16;
 
@@ -116,13 +118,18 @@ impl Pair {
         f64::from(u8::from(self.occluders.is_empty() || self.tracer.is_visible(from, to)))
     }
 
-    /// Mean of the closed form over Gauss points of the first polygon, each times the share of its visibility rays that arrive.
+    /// The closed form, integrated over the first polygon; with occluders its mean over Gauss points, each times the share of
+    /// its visibility rays that arrive.
     fn by_polygon(&self, effort: &Effort) -> f64 {
+        if self.occluders.is_empty() {
+            let from = Plate::new(&self.from.corners);
+            return from.exchange(&Plate::new(&self.to.corners), TOLERANCE) / from.area();
+        }
         let points = self.gauss_points();
         let targets = self.to.region.sampler(self.tracer.offset() * self.to.normal);
         let at = |(index, point): (u64, &Vec3A)| {
             let whole = form_factor(point.as_dvec3(), self.from.facet.normal, &self.to.corners);
-            if whole == 0.0 || self.occluders.is_empty() {
+            if whole == 0.0 {
                 return whole;
             }
             let origin = self.tracer.lift(*point, self.from.normal);

@@ -1,15 +1,15 @@
 //! Form factor from a receiving element to a shooting patch by a formula, without regard to what stands between.
 
 use super::centroid::{Facet, centroid, disc};
-use crate::math::polygon::{form_factor, vector_area};
+use crate::math::polygon::{Plate, form_factor, vector_area};
 use crate::mesh::{Element, Mesh, Patch};
 use crate::solution::Zero;
-use glam::{DVec3, Vec2, Vec3A};
+use glam::{DVec3, Vec3A};
 
-/// A receiver nearer to the shooter than this many of its own radii is integrated over four points, not one.
+/// A receiver nearer to the shooter than this many of its own radii is integrated over, not looked at in its centre.
 const NEAR_RADII: f64 = 4.0;
-/// Gauss-Legendre points of order 2 on [0, 1]; they have equal weights.
-pub(super) const GAUSS: [f32; 2] = [0.211_324_87, 0.788_675_1];
+/// Relative error of that integral: far below the noise of shadow rays.
+pub(super) const TOLERANCE: f64 = 1e-4;
 
 /// The formula.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,6 +22,7 @@ pub enum Kernel {
 /// A shooting patch, made ready for many receivers.
 pub struct Shooter {
     facet: Facet,
+    plate: Plate,
     corners: [DVec3; 4],
     count: usize,
     normal: Vec3A,
@@ -41,7 +42,7 @@ impl Shooter {
         // Its whole area, exposed or not: how much of it is seen is a matter of visibility.
         let area = vector_area(&corners[..count]).length();
         let facet = Facet { center, normal: patch.normal.as_dvec3(), area };
-        Self { facet, corners, count, normal: patch.normal, radius }
+        Self { facet, plate: Plate::new(&corners[..count]), corners, count, normal: patch.normal, radius }
     }
 
     /// Why no part of the receiving patch can see the front of the shooter, whatever stands between them, or `None` if
@@ -71,8 +72,8 @@ impl Shooter {
         }
     }
 
-    /// Mean over the points of the element: at its centre, or over four (of a triangle, three) points where the shooter
-    /// is so near that it looks different from each.
+    /// Mean over the element: at its centre, or over all its points where the shooter is so near that it looks different
+    /// from each.
     fn mean_form_factor(&self, mesh: &Mesh, element: &Element, normal: DVec3) -> f64 {
         let center = element.center.as_dvec3();
         // The radius of a square; what is longer is narrower, and the area is at hand.
@@ -80,14 +81,12 @@ impl Shooter {
         if center.distance(self.facet.center) - self.radius > NEAR_RADII * radius {
             return form_factor(center, normal, &self.corners[..self.count]);
         }
-        let region = mesh.region(element);
-        let at = |point: Vec3A| form_factor(point.as_dvec3(), normal, &self.corners[..self.count]);
-        if let &[a, b, c] = region.corners() {
-            return [a, b, c].map(|corner| at(corner.midpoint(element.center))).iter().sum::<f64>() / 3.0;
+        let mut corners = [DVec3::ZERO; 4];
+        for (to, &from) in corners.iter_mut().zip(element.corners()) {
+            *to = mesh.vertices[from as usize].as_dvec3();
         }
-        let [low, high] = GAUSS;
-        let points = [Vec2::new(low, low), Vec2::new(high, low), Vec2::new(low, high), Vec2::new(high, high)];
-        points.map(|point| at(region.point(point))).iter().sum::<f64>() / 4.0
+        let receiver = Plate::new(&corners[..element.corners().len()]);
+        receiver.exchange(&self.plate, TOLERANCE) / receiver.area()
     }
 }
 

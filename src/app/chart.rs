@@ -1,0 +1,192 @@
+//! What the convergence chart shows, and in which words: how far each run on a scene was after how much work.
+
+use super::format;
+use crate::choice::Choice;
+use crate::methods::{FormFactorMethod, Settings, Solver};
+use crate::worker::{Curve, CurvePoint};
+use std::sync::Arc;
+
+/// What is drawn over what.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(default)]
+pub struct Chart {
+    pub work: Work,
+    pub rest: Rest,
+}
+
+impl Chart {
+    /// The point of a curve, the rest as a power of ten; `None` where the rest has no logarithm, as after overshoot that
+    /// lent more light than there was left.
+    pub fn point(&self, point: &CurvePoint) -> Option<[f64; 2]> {
+        let work = match self.work {
+            Work::Steps => point.steps as f64,
+            Work::Updates => point.updates as f64,
+            Work::Rays => point.rays as f64,
+            Work::Seconds => point.seconds,
+        };
+        let rest = match self.rest {
+            Rest::Unshot => point.unshot,
+            Rest::Missing => point.missing,
+        };
+        (rest > 0.0).then(|| [work, rest.log10()])
+    }
+}
+
+/// What a run has spent.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Work {
+    #[default]
+    Steps,
+    Updates,
+    Rays,
+    Seconds,
+}
+
+impl Work {
+    /// An amount of it, as the axis of a chart writes it.
+    pub fn amount(self, amount: f64) -> String {
+        match self {
+            Self::Seconds => format::short(amount, "s"),
+            _ => format::short(amount, ""),
+        }
+    }
+}
+
+impl Choice for Work {
+    const ALL: &'static [Self] = &[Self::Steps, Self::Updates, Self::Rays, Self::Seconds];
+    const KIND: &'static str = "measure of work";
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Steps => "steps",
+            Self::Updates => "updates",
+            Self::Rays => "rays",
+            Self::Seconds => "seconds",
+        }
+    }
+
+    fn label(self) -> &'static str {
+        match self {
+            Self::Steps => "Shots or sweeps",
+            Self::Updates => "Patch updates",
+            Self::Rays => "Rays",
+            Self::Seconds => "Solver time",
+        }
+    }
+
+    fn meaning(self) -> &'static str {
+        match self {
+            Self::Steps => "A sweep takes as much work as there are patches, a shot that of one",
+            Self::Updates => "Patches that shot or gathered: the fair measure between shots and sweeps",
+            Self::Rays => "All rays, for form factors and for light",
+            Self::Seconds => "Time in the solver, with the building of a matrix",
+        }
+    }
+}
+
+/// What a run has left to do.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Rest {
+    #[default]
+    Unshot,
+    Missing,
+}
+
+impl Choice for Rest {
+    const ALL: &'static [Self] = &[Self::Unshot, Self::Missing];
+    const KIND: &'static str = "measure of what is left";
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Unshot => "unshot",
+            Self::Missing => "missing",
+        }
+    }
+
+    fn label(self) -> &'static str {
+        match self {
+            Self::Unshot => "Unshot share",
+            Self::Missing => "Missing light, estimated",
+        }
+    }
+
+    fn meaning(self) -> &'static str {
+        match self {
+            Self::Unshot => "Of the emitted flux, what waits to be passed on: the stop rule looks at it",
+            Self::Missing => "Of the light on surfaces, what unshot flux will add if it spreads evenly",
+        }
+    }
+}
+
+/// For each run its solver, and of its other settings those in which the runs differ.
+pub fn descriptions(curves: &[Arc<Curve>]) -> Vec<String> {
+    let facts: Vec<_> = curves.iter().map(|curve| facts(&curve.settings)).collect();
+    let differs = |kind: usize| facts.iter().any(|other| other[kind] != facts[0][kind]);
+    let describe = |facts: &[Option<String>; 8]| {
+        let told = facts.iter().enumerate().filter(|(kind, _)| *kind == 0 || differs(*kind));
+        told.filter_map(|(_, fact)| fact.as_deref()).collect::<Vec<_>>().join(", ")
+    };
+    facts.iter().map(describe).collect()
+}
+
+/// Everything that can make one run differ from another on one scene, the solver first; `None` where it plays no part.
+fn facts(settings: &Settings) -> [Option<String>; 8] {
+    let Settings { mesh, solver, form_factor, overshoot, shadow_rays, light_rays, hemicube_resolution, seed, .. } =
+        *settings;
+    let uses_shadow_rays = !matches!(form_factor, FormFactorMethod::Rays | FormFactorMethod::Hemicube);
+    let solver_name = solver.label().to_owned();
+    let is_ahead = overshoot && solver == Solver::Progressive;
+    [
+        Some(if is_ahead { format!("{solver_name} with overshoot") } else { solver_name }),
+        Some(form_factor.label().to_lowercase()),
+        Some(mesh.element_size.map_or("automatic mesh".to_owned(), |size| format::si(f64::from(size), "m"))),
+        Some(format!("{0} × {0} elements a patch", mesh.elements_per_patch_edge)),
+        uses_shadow_rays.then(|| format::counted(u64::from(shadow_rays), "shadow ray")),
+        (form_factor == FormFactorMethod::Rays).then(|| format::short(f64::from(light_rays), "rays")),
+        (form_factor == FormFactorMethod::Hemicube).then(|| format!("{hemicube_resolution} cells")),
+        Some(format!("seed {seed}")),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::MeshSettings;
+
+    fn curves(settings: impl IntoIterator<Item = Settings>) -> Vec<Arc<Curve>> {
+        let curve = |(i, settings)| Arc::new(Curve { number: i as u32 + 1, settings, points: Vec::new() });
+        settings.into_iter().enumerate().map(curve).collect()
+    }
+
+    #[test]
+    fn runs_are_told_apart_by_what_differs() {
+        let progressive = Settings::default();
+        let jacobi = Settings { solver: Solver::Jacobi, ..progressive };
+        assert_eq!(descriptions(&curves([progressive])), ["Progressive"]);
+        assert_eq!(descriptions(&curves([progressive, jacobi])), ["Progressive", "Jacobi"]);
+        let hemicube = Settings { form_factor: FormFactorMethod::Hemicube, ..jacobi };
+        assert_eq!(
+            descriptions(&curves([jacobi, hemicube])),
+            ["Jacobi, polygon, 64 shadow rays", "Jacobi, hemicube, 256 cells"]
+        );
+        let fine = Settings { mesh: MeshSettings { element_size: Some(0.5), ..progressive.mesh }, ..progressive };
+        let ahead = Settings { overshoot: true, ..fine };
+        assert_eq!(
+            descriptions(&curves([fine, progressive, ahead])),
+            ["Progressive, 500\u{2009}mm", "Progressive, automatic mesh", "Progressive with overshoot, 500\u{2009}mm"]
+        );
+    }
+
+    #[test]
+    fn what_has_no_logarithm_is_left_out() {
+        let point = |unshot| CurvePoint { steps: 7, updates: 70, rays: 700, seconds: 0.5, unshot, missing: 0.1 };
+        let chart = Chart::default();
+        assert_eq!(chart.point(&point(0.01)), Some([7.0, -2.0]));
+        assert_eq!(chart.point(&point(0.0)), None);
+        assert_eq!(chart.point(&point(-1e-3)), None);
+        let chart = Chart { work: Work::Rays, rest: Rest::Missing };
+        assert_eq!(chart.point(&point(0.0)), Some([700.0, -1.0]));
+    }
+}

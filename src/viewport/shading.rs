@@ -1,0 +1,97 @@
+//! What a view shows of the light: a value for every element.
+
+use super::colour_map::GREY;
+use super::{Frame, Legend, Light, View};
+use crate::math::rgb::Rgb;
+use crate::mesh::{Mesh, Patch};
+use crate::world::World;
+use glam::Vec3A;
+use std::borrow::Cow;
+
+/// What the values of elements are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// Flux density, W/m², drawn as the radiance of a diffuse surface that sends so much.
+    FluxDensity,
+    /// Linear colours in [0, 1], drawn as they are.
+    Colour,
+}
+
+/// The surfaces as a view shows them.
+#[derive(Debug)]
+pub struct Shading<'a> {
+    /// In the order of the mesh's elements.
+    pub values: Cow<'a, [Rgb]>,
+    pub quantity: Quantity,
+    /// Whether values are averaged to vertices and interpolated.
+    pub is_smooth: bool,
+}
+
+impl<'a> Shading<'a> {
+    /// What `frame` shows of the light of `world`: plain grey where the view cannot be drawn (see [`View::missing`]).
+    pub fn of(world: &World, light: &'a Light, frame: &Frame) -> Self {
+        Self::of_view(world, light, frame).unwrap_or_else(|| Self::colours(world, |_, patch| plain(patch)))
+    }
+
+    fn of_view(world: &World, light: &'a Light, frame: &Frame) -> Option<Self> {
+        let solution = &light.solution;
+        let constant = |values| Self { values, quantity: Quantity::FluxDensity, is_smooth: false };
+        let smooth = |values| Self { is_smooth: true, ..constant(values) };
+        Some(match frame.view {
+            View::Patches => constant(radiosity(world, light, frame.ambient)),
+            View::Smooth => smooth(radiosity(world, light, frame.ambient)),
+            View::Unshot => constant(Cow::Borrowed(&solution.light.unshot)),
+            View::Absorbed => constant(Cow::Owned(absorbed(world, light))),
+            View::Bounces => {
+                let bounce = solution.bounces.get(frame.bounce).or(solution.bounces.last())?;
+                smooth(Cow::Borrowed(bounce))
+            }
+            View::FormFactors => {
+                let picked = light.picked.as_ref()?;
+                let legend = Legend::of(frame.view, light);
+                Self::colours(world, |index, patch| match (picked.form_factors[index], &legend) {
+                    (form_factor, Some(legend)) if form_factor > 0.0 => legend.colour(form_factor),
+                    _ => plain(patch),
+                })
+            }
+        })
+    }
+
+    /// A colour for each patch, from its index and itself.
+    fn colours(world: &World, colour: impl Fn(usize, &Patch) -> Rgb) -> Self {
+        let Mesh { patches, elements, .. } = &world.mesh;
+        let of_patch: Vec<Rgb> = patches.iter().enumerate().map(|(index, patch)| colour(index, patch)).collect();
+        let values = elements.iter().map(|element| of_patch[element.patch as usize]).collect();
+        Self { values: Cow::Owned(values), quantity: Quantity::Colour, is_smooth: false }
+    }
+}
+
+/// B, and if asked for what the ambient term adds to it, W/m².
+fn radiosity<'a>(world: &World, light: &'a Light, with_ambient: bool) -> Cow<'a, [Rgb]> {
+    let solution = &light.solution;
+    let radiosity = &solution.light.radiosity;
+    if !with_ambient {
+        return Cow::Borrowed(radiosity);
+    }
+    let reflectance = reflectance(world);
+    radiosity.iter().zip(reflectance).map(|(&radiosity, rho)| radiosity + rho * solution.ambient).collect()
+}
+
+/// (1 − ρ) E of each element, W/m².
+fn absorbed(world: &World, light: &Light) -> Vec<Rgb> {
+    let irradiance = &light.solution.light.irradiance;
+    irradiance.iter().zip(reflectance(world)).map(|(&irradiance, rho)| (Rgb::ONE - rho) * irradiance).collect()
+}
+
+/// ρ of each element.
+fn reflectance(world: &World) -> impl Iterator<Item = Rgb> {
+    let World { mesh, scene, .. } = world;
+    let material = |patch: u32| &scene.materials[mesh.patches[patch as usize].material as usize];
+    mesh.elements.iter().map(move |element| material(element.patch).diffuse)
+}
+
+/// A grey that tells the sides of things apart, as if a wide light stood above and to one side.
+fn plain(patch: &Patch) -> Rgb {
+    let towards_light = Vec3A::new(0.36, 0.8, 0.48);
+    GREY * (1.0 + 0.5 * patch.normal.dot(towards_light))
+}

@@ -1,0 +1,66 @@
+//! Whether anything can stand between two points that light reaches.
+//!
+//! In an empty convex room, between bare walls or on a plane, every ray between two surfaces that face each other is
+//! free, and tracing it is a waste. Let K be the space in front of the planes of all sides that light reaches. If their
+//! polygons are all in K, then so is every line between two points of theirs, since K is convex; none of these polygons
+//! crosses a line, since each lies in one of the planes that bound K; and what light does not reach crosses none if it is
+//! behind one of them.
+
+use super::surface::Surfaces;
+use glam::{DVec3, Vec3A};
+
+/// Where there are more pairs of a plane and a corner than this, something is taken to stand somewhere: looking at all
+/// of them would take longer than a few hundredths of a second.
+const MOST_PAIRS: usize = 1 << 23;
+
+/// The plane of a side.
+#[derive(Clone, Copy, PartialEq)]
+struct Plane {
+    /// Unit, on the side's own side.
+    normal: DVec3,
+    /// Distance from the origin along the normal, m.
+    offset: f64,
+}
+
+impl Plane {
+    fn new(surfaces: &Surfaces, side: usize) -> Self {
+        let normal = surfaces.normal(side).as_dvec3();
+        let corners = surfaces.corners_of(side / 2);
+        let sum: f64 = corners.iter().map(|corner| corner.as_dvec3().dot(normal)).sum();
+        Self { normal, offset: sum / corners.len() as f64 }
+    }
+
+    /// m
+    fn height(&self, point: Vec3A) -> f64 {
+        point.as_dvec3().dot(self.normal) - self.offset
+    }
+
+    fn key(&self) -> [u64; 4] {
+        [self.normal.x, self.normal.y, self.normal.z, self.offset].map(|number| (number + 0.0).to_bits())
+    }
+}
+
+/// False if nothing crosses a line between two points of sides that light reaches by more than `tolerance`, m. True if
+/// something may: nothing is traced, so that it costs next to nothing.
+pub fn may_exist(surfaces: &Surfaces, is_reached: &[bool], tolerance: f64) -> bool {
+    let reached = is_reached.iter().enumerate().filter(|(_, is_reached)| **is_reached);
+    let mut planes: Vec<Plane> = reached.map(|(side, _)| Plane::new(surfaces, side)).collect();
+    // A wall of many polygons has one plane.
+    planes.sort_by_cached_key(Plane::key);
+    planes.dedup();
+    if planes.len() * surfaces.corners().count() > MOST_PAIRS {
+        return true;
+    }
+    let is_out_of_the_way = |polygon: usize| {
+        let mut heights = planes.iter().map(|plane| {
+            let heights = surfaces.corners_of(polygon).iter().map(|&corner| plane.height(corner));
+            heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| (low.min(h), high.max(h)))
+        });
+        if is_reached[2 * polygon] || is_reached[2 * polygon + 1] {
+            heights.all(|(lowest, _)| lowest >= -tolerance)
+        } else {
+            heights.any(|(_, highest)| highest <= tolerance)
+        }
+    };
+    !(0..surfaces.len()).all(is_out_of_the_way)
+}
