@@ -24,8 +24,8 @@ const MEAN_DIFFERENCE: f64 = 0.75;
 
 /// Width and height, pixels.
 const SIZE: [u32; 2] = [160, 120];
-/// In the Cornell box, before the blocks.
-const FLOOR: [f32; 2] = [50.0, 110.0];
+/// On the red wall of the Cornell box, where nothing stands before it.
+const RED_WALL: [f32; 2] = [32.0, 50.0];
 
 fn reference(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("screenshots/tests").join(format!("{name}.png"))
@@ -73,7 +73,7 @@ fn compare_view(gpu: &Gpu, scene: &str, view: View, wireframe: bool, shots: usiz
         exposure_ev: automatic_exposure(&world, &solution),
         tone: ToneCurve::Linear,
     };
-    let patch = pick_patch(&world, &camera, FLOOR, SIZE).expect("a patch of the floor");
+    let patch = pick_patch(&world, &camera, RED_WALL, SIZE).expect("a patch of the wall");
     let picked = view.is_false_colour().then(|| Arc::new(pick(&world, &settings, patch)));
     let light = Light { solution: Arc::new(solution), picked };
     let picture = render_picture(gpu, &world, &light, &frame, 16).expect("a picture");
@@ -118,7 +118,7 @@ fn diagrams_are_as_they_were() {
     let camera = Camera::new(&world.viewpoint, &world.bounds);
     let matrix = solve(&world, &settings, 1).matrix.expect("the matrix is built before the first sweep");
     compare(&diagram::matrix(&matrix, 160).picture, "cornell-box-matrix");
-    let patch = pick_patch(&world, &camera, FLOOR, SIZE).expect("a patch of the floor");
+    let patch = pick_patch(&world, &camera, RED_WALL, SIZE).expect("a patch of the wall");
     let buffer = pick(&world, &settings, patch).item_buffer;
     compare(&diagram::item_buffer(&buffer, &world, 160), "cornell-box-item-buffer");
 }

@@ -367,6 +367,16 @@ fn texts_lie_inside_the_window_and_apart_from_each_other() {
 }
 
 #[test]
+fn dialogs_fit_into_the_smallest_window() {
+    for dialog in [Dialog::Keys, Dialog::About, Dialog::Matrix, Dialog::ItemBuffer] {
+        let stage = Stage { dialog: Some(dialog.clone()), has_pictures: true, ..Stage::default() };
+        let close = stage.window(SMALLEST).get_by_label("Close").rect();
+        let screen = Rect::from_min_size(egui::Pos2::ZERO, SMALLEST);
+        assert!(screen.contains_rect(close), "{dialog:?} ends at {close:?}");
+    }
+}
+
+#[test]
 fn dialogs_open_and_answer() {
     let about = Stage { dialog: Some(Dialog::About), ..Stage::default() };
     assert_eq!(click(about, "Close"), [Action::CloseDialog]);

@@ -175,12 +175,13 @@ impl Viewport {
 
     fn set_display(&mut self, frame: &Frame) {
         let Some(world) = &self.world else { return };
+        let is_picked = self.light.as_ref().is_some_and(|light| light.picked.is_some());
         let (shown_per_unit, tone) = match world.quantity {
             Quantity::FluxDensity => (frame.exposure_ev.exp2(), frame.tone),
             Quantity::Colour => (1.0, ToneCurve::Linear),
         };
         let display = DisplayUniform {
-            outline: if frame.view.is_false_colour() { PICKED } else { SHOOTER },
+            outline: if is_picked { PICKED } else { SHOOTER },
             exposure: shown_per_unit / world.stored_per_unit,
             tone: tone as u32,
             encode: self.encodes.into(),

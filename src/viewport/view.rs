@@ -110,7 +110,7 @@ pub struct Frame {
     pub ambient: bool,
     /// Whether the outlines of elements are drawn.
     pub wireframe: bool,
-    /// Whether the patch that shot last is outlined. [`View::FormFactors`] outlines the picked patch instead.
+    /// Whether the patch that shot last is outlined. A picked patch is outlined instead of it, in every view.
     pub show_shooter: bool,
     /// In stops; see [`super::Exposure`].
     pub exposure_ev: f32,
@@ -120,9 +120,7 @@ pub struct Frame {
 impl Frame {
     /// The patch that is outlined, if any.
     pub(super) fn outlined(&self, light: &Light) -> Option<u32> {
-        match self.view {
-            View::FormFactors => light.picked.as_ref().map(|picked| picked.patch),
-            _ => light.solution.shooter.filter(|_| self.show_shooter),
-        }
+        let picked = light.picked.as_ref().map(|picked| picked.patch);
+        picked.or_else(|| light.solution.shooter.filter(|_| self.show_shooter && self.view != View::FormFactors))
     }
 }

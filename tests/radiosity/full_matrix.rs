@@ -51,7 +51,10 @@ fn form_factors_are_bounded_reciprocal_and_close_in_a_closed_room() {
             }
         }
         println!("{form_factor:?}: rows are {:.1e} from closing", apart / world.mesh.area());
-        assert!(apart < 1e-3 * world.mesh.area(), "{form_factor:?}: {apart} m²");
+        // A hemicube may see from the middle of a patch what does not see that patch from its own middle: where such pairs
+        // are most of what a small patch sees, no symmetric matrix closes its row, and the last factor is left to do it.
+        let allowed = if form_factor == FormFactorMethod::Hemicube { 1e-2 } else { 1e-9 };
+        assert!(apart < allowed * world.mesh.area(), "{form_factor:?}: {apart} m²");
     }
 }
 

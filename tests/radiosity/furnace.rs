@@ -24,8 +24,9 @@ fn allowed(method: FormFactorMethod, world: &World, settings: &Settings, reflect
     match method {
         // Centre to centre is wrong by a fraction of 1 where patches touch: it is shown, not hidden.
         FormFactorMethod::Centroid | FormFactorMethod::Disc => 0.6,
-        // Four points an element and some 64 rays to each patch that is partly hidden.
-        FormFactorMethod::Polygon => 0.02,
+        // A pair that is partly hidden is known to its shadow rays, at least 4: off by up to 1/8, of a few pairs that each
+        // are up to a fifth of what is seen.
+        FormFactorMethod::Polygon => 0.05,
         // An element's light comes from as many rays as its share of all flux; five standard deviations of their number.
         FormFactorMethod::Rays => {
             let least = world.mesh.elements.iter().map(|element| element.area).fold(f64::INFINITY, f64::min);
@@ -40,7 +41,7 @@ fn allowed(method: FormFactorMethod, world: &World, settings: &Settings, reflect
 #[test]
 fn every_method_and_solver_fills_a_furnace_evenly() {
     // Few patches where light goes to and fro for long.
-    for (reflectance, element_size, elements_per_patch_edge) in [(0.5, 0.125, 2), (0.99, 0.5, 4)] {
+    for (reflectance, element_size, elements_per_patch_edge) in [(0.5, 0.125, 2), (0.99, 0.25, 4)] {
         for (name, scene) in rooms(reflectance) {
             let world = world_of(scene, &mesh(element_size, elements_per_patch_edge));
             let exitance = f64::from(world.scene.materials[0].exitance().element_sum());
@@ -62,7 +63,8 @@ fn check(
     reflectance: f64,
     expected: f64,
 ) {
-    let unshot_limit = 1e-4;
+    // Light that goes to and fro a hundred times is not followed to its end.
+    let unshot_limit = if reflectance > 0.9 { 1e-2 } else { 1e-4 };
     let settings = Settings {
         form_factor,
         solver,
@@ -82,7 +84,7 @@ fn check(
     assert!(total(solution.energy.escaped).abs() <= 1e-12 * total(solution.energy.emitted), "{what}");
     // Unshot flux Φ_u is missing with all its reflections: ρ Φ_u / (1 − ρ) of Φ / (1 − ρ), so the limit itself.
     assert!((mean / expected - 1.0).abs() < 1.01 * unshot_limit + 1e-6, "{what}");
-    assert!(worst < allowed(form_factor, world, &settings, reflectance), "{what}");
+    assert!(worst < allowed(form_factor, world, &settings, reflectance) + unshot_limit, "{what}");
 }
 
 #[test]

@@ -158,6 +158,9 @@ fn a_view_that_lacks_something_says_what_to_do() {
     stage().small().get_by_label("bounces are missing");
     let jacobi = Settings { solver: Solver::Jacobi, ..Settings::default() };
     assert_eq!(click(stage(), "Use Jacobi"), [Action::ApplySettings(jacobi)]);
+    let chosen = Stage { settings: jacobi, ..stage() }.small();
+    assert!(chosen.query_by_label("Use Jacobi").is_none());
+    assert_eq!(chosen.query_all_by_label("Run").count(), 2, "the transport's and the banner's");
     let look = Look { view: View::FormFactors, ..Look::default() };
     let solution = Some(Solution { shooter: Some(17), ..solution() });
     let pick = [Action::Send(Command::Pick(Some(17)))];

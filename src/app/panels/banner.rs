@@ -60,6 +60,11 @@ fn remedy_for_view(model: &Model) -> Option<Remedy> {
             hover: "Chooses the solver that goes bounce by bounce, and starts the light over",
             action: Action::ApplySettings(Settings { solver: Solver::Jacobi, ..model.settings }),
         }),
+        View::Bounces if model.can_run() && !model.is_running() => Some(Remedy {
+            name: "Run",
+            hover: "Builds the matrix and goes bounce by bounce",
+            action: Action::Send(Command::Run),
+        }),
         View::FormFactors => model.solution.and_then(|solution| solution.shooter).map(|shooter| Remedy {
             name: "Pick the shooter",
             hover: "Picks the patch that shot last",

@@ -9,11 +9,15 @@ use crate::app::theme::{Palette, UNIT};
 use crate::choice::Choice;
 use crate::worker::Curve;
 use egui::{Color32, RichText, ScrollArea, Ui, vec2};
-use egui_plot::{GridInput, GridMark, HLine, HoverPosition, Line, LineStyle, Plot, PlotPoint, PlotPoints};
+use egui_plot::{
+    GridInput, GridMark, HLine, HoverPosition, Line, LineStyle, Plot, PlotPoint, PlotPoints, uniform_grid_spacer,
+};
 use std::sync::Arc;
 
 /// Room below the stop limit, in powers of ten.
 const BELOW_LIMIT: f64 = 0.2;
+/// Lines over the work are at least this many of the plot's smallest steps apart, so that each has room for its number.
+const LEAST_STEPS: f64 = 10.0;
 /// Width of the legend.
 const LEGEND_WIDTH: f32 = 52.0 * UNIT;
 
@@ -55,6 +59,7 @@ fn plot(ui: &mut Ui, model: &Model, descriptions: &[String], size: egui::Vec2) {
         .include_y(limit - BELOW_LIMIT)
         .allow_scroll(false)
         .y_axis_min_width(12.0 * UNIT)
+        .x_grid_spacer(uniform_grid_spacer(|input| [round_step(LEAST_STEPS * input.base_step_size); 3]))
         .y_grid_spacer(decades)
         .y_axis_formatter(
             |mark, _| if is_power(mark) { format::percent_short(10_f64.powf(mark.value)) } else { String::new() },
@@ -76,6 +81,12 @@ fn plot(ui: &mut Ui, model: &Model, descriptions: &[String], size: egui::Vec2) {
             plot.line(line.color(color(palette, curve)).width(if is_under_way { 3.0 } else { 1.5 }));
         }
     });
+}
+
+/// The smallest of 1, 2 and 5 times a power of ten that is at least this.
+fn round_step(least: f64) -> f64 {
+    let power = 10_f64.powf(least.log10().floor());
+    [1.0, 2.0, 5.0].map(|digit| digit * power).into_iter().find(|step| *step >= least).unwrap_or(10.0 * power)
 }
 
 /// Lines at every tenth, and faint ones at 2, 3, … 9 times that.

@@ -31,8 +31,8 @@ pub fn matrix(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
         });
     } else if model.solution.is_some_and(|solution| solution.matrix.is_some()) {
         ui.add(Spinner::new().size(6.0 * UNIT));
-    } else if let Some(share) = model.preparation() {
-        ui.label(format!("Building matrix {}", format::percent_whole(share)));
+    } else if model.settings.solver.needs_matrix() {
+        unfinished(ui, model, actions);
     } else {
         no_matrix(ui, model, actions);
     }
@@ -62,16 +62,22 @@ fn share(ui: &mut Ui, color: Color32, label: &str, share: f64) {
     });
 }
 
-/// Which solvers have one, each a click away.
-fn no_matrix(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
-    if model.settings.solver.needs_matrix() {
-        ui.label("The matrix is built before the first step.");
+/// The solver has not come to its first step.
+fn unfinished(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
+    match model.preparation().filter(|share| *share > 0.0) {
+        Some(share) => ui.label(format!("Building matrix {}", format::percent_whole(share))),
+        None => ui.label("The matrix is built before the first step."),
+    };
+    if !model.is_running() {
         let step = ui.add_enabled(model.can_run(), primary_button(ui, "Do the first step"));
         if step.on_hover_text("Builds the matrix, does one step and pauses").clicked() {
             actions.push(Action::Send(Command::Step(1)));
         }
-        return;
     }
+}
+
+/// Which solvers have one, each a click away.
+fn no_matrix(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     ui.label(Diagram::Matrix.remedy());
     ui.add_space(UNIT);
     ui.horizontal(|ui| {

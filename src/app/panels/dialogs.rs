@@ -140,8 +140,15 @@ fn path(ui: &mut Ui, purpose: PathPurpose, text: &str, actions: &mut Vec<Action>
 
 fn keys(ui: &mut Ui, actions: &mut Vec<Action>) {
     heading(ui, "Keys");
-    let rows = BINDINGS.iter().map(|binding| (ui.ctx().format_shortcut(&binding.shortcut), binding.purpose));
-    table(ui, "keys", rows.collect::<Vec<_>>());
+    // One column would be higher than the smallest window.
+    let halves = BINDINGS.split_at(BINDINGS.len().div_ceil(2));
+    ui.horizontal_top(|ui| {
+        for (id, half) in [("left keys", halves.0), ("right keys", halves.1)] {
+            let rows = half.iter().map(|binding| (ui.ctx().format_shortcut(&binding.shortcut), binding.purpose));
+            table(ui, id, rows.collect::<Vec<_>>());
+            ui.add_space(4.0 * UNIT);
+        }
+    });
     ui.add_space(2.0 * UNIT);
     heading(ui, "Mouse in the viewport");
     let mouse = [

@@ -36,9 +36,9 @@ fn summary(report: &CheckReport) -> String {
 }
 
 pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
+    ui.spacing_mut().item_spacing.y = 0.0;
     head(ui);
     let lines = lines(model.checks);
-    ui.spacing_mut().item_spacing.y = 0.0;
     ScrollArea::vertical().auto_shrink(false).show_rows(ui, HEIGHT, lines.len(), |ui, visible| {
         for line in &lines[visible] {
             show_line(ui, line, actions);
@@ -65,7 +65,7 @@ fn lines(report: Option<&CheckReport>) -> Vec<Line<'_>> {
 }
 
 fn head(ui: &mut Ui) {
-    columns(ui, |ui, column| {
+    columns(ui, true, |ui, column| {
         let text = ["", "Case", "Quantity", "Expected", "Got", "Tolerance"][column];
         ui.label(RichText::new(text).small().weak());
     });
@@ -74,7 +74,7 @@ fn head(ui: &mut Ui) {
 fn show_line(ui: &mut Ui, line: &Line, actions: &mut Vec<Action>) {
     let verdict = line.row.map(|row| row.verdict);
     let hover = line.row.map_or(line.case.about, |row| &row.guard);
-    columns(ui, |ui, column| match (column, line.row) {
+    columns(ui, line.row.is_some(), |ui, column| match (column, line.row) {
         (0, _) => lamp(ui, verdict),
         (1, _) if line.is_first => {
             let name = ui.add(Button::new(line.case.name).frame(false).truncate());
@@ -96,16 +96,17 @@ fn cell(ui: &mut Ui, text: RichText, hover: &str) {
     ui.add(Label::new(text).truncate()).on_hover_text(hover);
 }
 
-/// One line of cells; the numbers stand at the right of theirs.
-fn columns(ui: &mut Ui, mut cell: impl FnMut(&mut Ui, usize)) {
+/// One line of cells; the numbers stand at the right of theirs. A line without numbers has their room for its text.
+fn columns(ui: &mut Ui, has_numbers: bool, mut cell: impl FnMut(&mut Ui, usize)) {
     let spacing = 2.0 * UNIT;
-    let fixed = LAMP_WIDTH + CASE_WIDTH + 2.0 * NUMBER_WIDTH + TOLERANCE_WIDTH + 6.0 * spacing;
-    let quantity = (ui.available_width() - fixed).max(NUMBER_WIDTH);
-    let widths = [LAMP_WIDTH, CASE_WIDTH, quantity, NUMBER_WIDTH, NUMBER_WIDTH, TOLERANCE_WIDTH];
+    let numbers = if has_numbers { &[NUMBER_WIDTH, NUMBER_WIDTH, TOLERANCE_WIDTH][..] } else { &[] };
+    let fixed = LAMP_WIDTH + CASE_WIDTH + numbers.iter().sum::<f32>() + (3 + numbers.len()) as f32 * spacing;
+    let text = (ui.available_width() - fixed).max(NUMBER_WIDTH);
+    let widths = [LAMP_WIDTH, CASE_WIDTH, text].into_iter().chain(numbers.iter().copied());
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = spacing;
         ui.spacing_mut().interact_size.y = HEIGHT;
-        for (column, width) in widths.into_iter().enumerate() {
+        for (column, width) in widths.enumerate() {
             let is_number = column > 2;
             let layout =
                 if is_number { Layout::right_to_left(Align::Center) } else { Layout::left_to_right(Align::Center) };

@@ -63,6 +63,9 @@ fn view_menu(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     choice(ui, "Shooter", look.show_shooter, Some(&keys::SHOOTER), || {
         actions.push(Action::SetLook(Look { show_shooter: !look.show_shooter, ..look }));
     });
+    choice(ui, "Ambient", look.ambient, Some(&keys::AMBIENT), || {
+        actions.push(Action::SetLook(Look { ambient: !look.ambient, ..look }));
+    });
     ui.separator();
     for &panel in LowerPanel::ALL {
         let is_open = model.lower == Some(panel);

@@ -5,7 +5,7 @@ use crate::choice::Choice;
 use egui::emath::Numeric;
 use egui::{
     Align, Button, ComboBox, CornerRadius, KeyboardShortcut, Layout, Response, RichText, Sense, Slider, SliderClamping,
-    TextStyle, Ui, vec2,
+    StrokeKind, TextStyle, Ui, vec2,
 };
 use std::ops::RangeInclusive;
 
@@ -160,5 +160,5 @@ pub fn with_key(ui: &Ui, sentence: &str, shortcut: Option<&KeyboardShortcut>) ->
 /// A small square of a colour, as a legend has.
 pub fn chip(ui: &mut Ui, color: egui::Color32) {
     let (rect, _) = ui.allocate_exact_size(vec2(3.0 * UNIT, 3.0 * UNIT), Sense::hover());
-    ui.painter().rect_filled(rect, 3, color);
+    ui.painter().rect(rect, 3, color, ui.visuals().widgets.noninteractive.bg_stroke, StrokeKind::Inside);
 }

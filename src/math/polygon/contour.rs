@@ -16,7 +16,8 @@ use std::f64::consts::TAU;
 const MAX_CORNERS: usize = 16;
 /// Rounding of a form factor.
 const ROUNDING: f64 = 1e-14;
-/// Lines that pass each other within this share of the edges' length meet: neglects less than its square, times its logarithm.
+/// Lines that pass each other within this share of the edges' length, times the root of the sine of their angle, meet. That
+/// neglects the area c² / sin of where they are nearer than that gap c, times a logarithm.
 const MEETING: f64 = 1e-7;
 /// Where lines meet, in lengths of the longer edge. The closed form is a difference of terms that grow with the square.
 const FARTHEST_MEETING: f64 = 32.0;
@@ -48,7 +49,7 @@ pub(super) fn exchange(one: &[DVec3], other: &[DVec3], angle: f64) -> f64 {
     }
     first.iter_mut().for_each(|corner| *corner += other[0] - origin);
     // Any constant may be added to the logarithm, since each contour is closed: this one keeps its values small.
-    let unit = mean(second).distance_squared(mean(first)).max(vector_area(first).length());
+    let unit = mean(second).distance_squared(mean(first)).max(one_normal.length());
     let pairs = edges(first).flat_map(|edge| edges(second).map(move |other| (edge, other)));
     pairs.map(|(edge, other)| edge_exchange(&edge, &other, unit, angle)).sum::<f64>() / TAU
 }
@@ -92,16 +93,18 @@ fn edge_exchange(edge: &Edge, other: &Edge, unit: f64, angle: f64) -> f64 {
         let aligned = if cosine < 0.0 { other.reversed() } else { *other };
         return cosine.signum() * parallel_edges(edge, &aligned, unit);
     }
-    // Places on the two lines where they are nearest, measured from the starts along the directions.
+    // Places on the two lines where they are nearest, measured from the starts along the directions. The first is known badly
+    // where the lines are almost parallel; the second and the gap are those that belong to it.
     let way = other.start - edge.start;
     let near = way.cross(other.direction).dot(axis) / (sine * sine);
-    let other_near = way.cross(edge.direction).dot(axis) / (sine * sine);
-    let gap = (way.dot(axis) / sine).abs();
+    let apart = near * edge.direction - way;
+    let other_near = apart.dot(other.direction);
+    let gap = (apart - other_near * other.direction).length();
     let longer = edge.length.max(other.length);
     let farthest = near.abs().max(other_near.abs());
     cosine
-        * if gap <= MEETING * longer && farthest <= FARTHEST_MEETING * longer {
-            meeting_edges([-near, edge.length - near], [-other_near, other.length - other_near], cosine, unit)
+        * if gap <= MEETING * sine.sqrt() * longer && farthest <= FARTHEST_MEETING * longer {
+            meeting_edges([-near, edge.length - near], [-other_near, other.length - other_near], (cosine, sine), unit)
         } else if edge.length <= other.length {
             passing_edges(edge, other, (near, gap / sine), unit)
         } else {
@@ -117,8 +120,7 @@ fn parallel_edges(edge: &Edge, other: &Edge, unit: f64) -> f64 {
     let distance = square.sqrt();
     // Its second derivative is the integrand, as a function of the difference of the places on the two edges.
     let twice_integrated = |x: f64| {
-        let logarithm = if x == 0.0 && square == 0.0 { 0.0 } else { ((x * x + square) / unit).ln() };
-        0.25 * (x * x - square) * logarithm - 0.75 * x * x + distance * x * x.atan2(distance)
+        0.25 * (x * x - square) * logarithm(x * x + square, unit) - 0.75 * x * x + distance * x * x.atan2(distance)
     };
     twice_integrated(shift + other.length)
         - twice_integrated(shift)
@@ -126,24 +128,33 @@ fn parallel_edges(edge: &Edge, other: &Edge, unit: f64) -> f64 {
         + twice_integrated(shift - edge.length)
 }
 
-/// ∫∫ ½ ln(r² / unit) ds dt over two edges on lines that meet at an angle of this cosine. `ends` are the places of an
+/// ∫∫ ½ ln(r² / unit) ds dt over two edges on lines that meet at an angle of this cosine and sine. `ends` are the places of an
 /// edge's start and end, measured along it from the meeting point.
 ///
 /// Over [0, a] × [0, b] from the meeting point the integral D is homogeneous up to a logarithm: D(k a, k b) = k² (D(a, b) + a b ln k).
 /// The derivative by k is a ∂D/∂a + b ∂D/∂b = 2 D + a b, and ∂D/∂a is an integral along one edge alone.
-fn meeting_edges([start, end]: [f64; 2], [other_start, other_end]: [f64; 2], cosine: f64, unit: f64) -> f64 {
-    let square_sine = 1.0 - cosine * cosine;
+fn meeting_edges(
+    [start, end]: [f64; 2],
+    [other_start, other_end]: [f64; 2],
+    (cosine, sine): (f64, f64),
+    unit: f64,
+) -> f64 {
     // ∂D/∂a: along the other line from the meeting point to b, seen from a.
-    let along = |a: f64, b: f64| line_integral(-a * cosine, b - a * cosine, a * a * square_sine, unit);
+    let along = |a: f64, b: f64| line_integral(-a * cosine, b - a * cosine, (a * sine).powi(2), unit);
     let from_meeting = |a: f64, b: f64| 0.5 * (a * along(a, b) + b * along(b, a) - a * b);
     from_meeting(end, other_end) - from_meeting(start, other_end) - from_meeting(end, other_start)
         + from_meeting(start, other_start)
 }
 
+/// ln(square / unit), or 0 for 0: what it is multiplied with is 0 then.
+fn logarithm(square: f64, unit: f64) -> f64 {
+    if square > 0.0 { (square / unit).ln() } else { 0.0 }
+}
+
 /// ∫ ½ ln((t² + square) / unit) dt from `low` to `high`, places on a line measured from the foot of the point that is
 /// √`square` off it.
 fn line_integral(low: f64, high: f64, square: f64, unit: f64) -> f64 {
-    let term = |t: f64| if t == 0.0 { 0.0 } else { 0.5 * t * ((t * t + square) / unit).ln() };
+    let term = |t: f64| 0.5 * t * logarithm(t * t + square, unit);
     let distance = square.sqrt();
     let angle = if distance > 0.0 { (distance * (high - low)).atan2(square + low * high) } else { 0.0 };
     term(high) - term(low) - (high - low) + distance * angle
@@ -266,5 +277,21 @@ mod tests {
         let back = turned_over(wall(1.0, 1.0));
         assert_eq!(area_form_factor(&floor([0.0, 0.0], [1.0, 1.0], 0.0), &back), 0.0);
         assert_eq!(area_form_factor(&[DVec3::ZERO; 3], &back), 0.0);
+    }
+
+    #[test]
+    fn edges_on_lines_that_meet_agree_with_quadrature_at_every_angle() {
+        let edge = Edge { start: DVec3::ZERO, direction: DVec3::X, length: 1.0 };
+        for exponent in 0..=16 {
+            for (place, other_place) in [(0.0, 0.0), (0.0, 0.4), (0.3, 0.4), (1.0, 0.0), (-0.5, 1.0), (1.7, 0.0)] {
+                let angle = 10f64.powi(-exponent);
+                let direction = DVec3::new(angle.cos(), angle.sin(), 0.0);
+                let other = Edge { start: place * DVec3::X - other_place * direction, direction, length: 0.8 };
+                let got = edge_exchange(&edge, &other, 1.0, ROUNDING);
+                // Intervals that halve towards the meeting point down to the last digit.
+                let expected = angle.cos() * passing_edges(&edge, &other, (place, 0.0), 1.0);
+                assert!((got - expected).abs() < 1e-12, "{angle} {place} {other_place}: {got} for {expected}");
+            }
+        }
     }
 }
