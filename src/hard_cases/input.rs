@@ -10,7 +10,12 @@ use crate::scene::Scene;
 use crate::world::World;
 
 pub const CASES: &[Case] = &[
-    Case { name: "empty-file", about: "files without a face", measure: empty_file, scene: || None },
+    Case {
+        name: "empty-file",
+        about: "files that hold no face that could be drawn",
+        measure: empty_file,
+        scene: || None,
+    },
     Case {
         name: "not-a-number",
         about: "NaN and infinity in place of each number of a scene, one after the other",

@@ -268,7 +268,8 @@ impl Checker {
 /// A fourth number (the weight of rational curves) and vertex colours mean nothing to polygons here.
 fn usable_position(rest: &str) -> Result<[f64; 3], (FindingKind, String)> {
     let position = parse_position(rest).map_err(|problem| (FindingKind::MalformedLine, problem))?;
-    if position.iter().any(|coordinate| !coordinate.is_finite()) {
+    // What single precision has no number for counts as infinite.
+    if position.iter().any(|coordinate| !(*coordinate as f32).is_finite()) {
         return Err((FindingKind::NonFiniteVertex, "a coordinate is not a finite number".to_owned()));
     }
     if position.iter().any(|coordinate| coordinate.abs() > MAX_COORDINATE) {
