@@ -74,7 +74,9 @@ fn compare_view(gpu: &Gpu, scene: &str, view: View, wireframe: bool, shots: usiz
         tone: ToneCurve::Linear,
     };
     let patch = pick_patch(&world, &camera, RED_WALL, SIZE).expect("a patch of the wall");
-    let picked = view.is_false_colour().then(|| Arc::new(pick(&world, &settings, patch)));
+    let picked = view
+        .is_false_colour()
+        .then(|| Arc::new(pick(&world, &settings, patch, &Cancel::default()).expect("nothing cancels it")));
     let light = Light { solution: Arc::new(solution), picked };
     let picture = render_picture(gpu, &world, &light, &frame, 16).expect("a picture");
     compare(&picture, &format!("{scene}-{}", view.name()));
@@ -119,6 +121,6 @@ fn diagrams_are_as_they_were() {
     let matrix = solve(&world, &settings, 1).matrix.expect("the matrix is built before the first sweep");
     compare(&diagram::matrix(&matrix, 160).picture, "cornell-box-matrix");
     let patch = pick_patch(&world, &camera, RED_WALL, SIZE).expect("a patch of the wall");
-    let buffer = pick(&world, &settings, patch).item_buffer;
+    let buffer = pick(&world, &settings, patch, &Cancel::default()).expect("nothing cancels it").item_buffer;
     compare(&diagram::item_buffer(&buffer, &world, 160), "cornell-box-item-buffer");
 }

@@ -26,6 +26,8 @@ pub enum Action {
     Camera(CameraMove),
     /// Picks the patch at this point of the viewport, in shares of its width and height from the top left.
     Pick(Vec2),
+    /// Picks the patch with this index.
+    PickPatch(u32),
     /// Saves the viewport as it is at once, under a name that is free.
     SavePictureNow,
     /// Asks the system for a file to save to, and saves a picture there.

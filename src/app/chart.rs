@@ -135,7 +135,7 @@ pub fn descriptions(curves: &[Arc<Curve>]) -> Vec<String> {
 fn facts(settings: &Settings) -> [Option<String>; 8] {
     let Settings { mesh, solver, form_factor, overshoot, shadow_rays, light_rays, hemicube_resolution, seed, .. } =
         *settings;
-    let uses_shadow_rays = !matches!(form_factor, FormFactorMethod::Rays | FormFactorMethod::Hemicube);
+    let uses_shadow_rays = form_factor != FormFactorMethod::Rays;
     let solver_name = solver.label().to_owned();
     let is_ahead = overshoot && solver == Solver::Progressive;
     [

@@ -17,7 +17,7 @@ use crate::hard_cases::cases;
 use crate::methods::Settings;
 use crate::scene::Source;
 use crate::viewport::Legend;
-use crate::worker::{Checks, Command, Shown, Snapshot, Worker};
+use crate::worker::{Checks, Command, Place, Shown, Snapshot, Worker};
 use egui::{Ui, ViewportCommand};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -177,7 +177,8 @@ impl Explorer {
             Action::EditSettings(settings) => self.edited = Some(settings),
             Action::ApplySettings(settings) => self.configure(settings),
             Action::Camera(movement) => self.pane.move_camera(movement),
-            Action::Pick(at) => self.worker.send(Command::Pick(self.pane.patch_at(at))),
+            Action::Pick(at) => self.pick(self.pane.patch_at(at)),
+            Action::PickPatch(patch) => self.pick(Some(patch)),
             Action::SavePictureNow => {
                 let request = PictureRequest { size: self.pane.size(), samples: 16, format: Format::Png };
                 self.save_picture(request, Destination::Free(request.format));
@@ -223,6 +224,11 @@ impl Explorer {
                 self.notices.tell(now, format!("{name} is about numbers alone: there is no scene to open"));
             }
         }
+    }
+
+    fn pick(&self, patch: Option<u32>) {
+        let place = patch.zip(self.pane.shown()).map(|(patch, (world, _))| Place { world: Arc::clone(world), patch });
+        self.worker.send(Command::Pick(place));
     }
 
     fn configure(&mut self, settings: Settings) {

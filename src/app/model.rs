@@ -97,7 +97,7 @@ impl Model<'_> {
             return 0.0;
         };
         // Overshoot may lend more light than there is left.
-        let unshot = solution.energy.unshot_share().abs();
+        let unshot = solution.unshot_share;
         let limit = self.settings.unshot_limit;
         if solution.converged || unshot <= limit {
             return 1.0;

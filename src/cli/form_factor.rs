@@ -27,9 +27,11 @@ good to about 1e-6.
 centroid  cosθ cosθ' A' / (π r²), from centre to centre. Slides may print 2π: with that, a closed room would lose half of its
           light at every bounce. Above 1 where the polygons are near.
 disc      cosθ cosθ' A' / (π r² + A'). Both see all or nothing, along the line between the centres.
-polygon   Lambert's closed form at three or four points of the first polygon, each times the share of visibility rays that arrive.
+polygon   Lambert's closed form, integrated over the first polygon; with occluders at three or four points of it, each times the
+          share of visibility rays that arrive.
 rays      Share of cosine-distributed rays from the first polygon that land on the second.
-hemicube  What the centre of the first polygon sees, through the cells of half a cube.";
+hemicube  What the centre of the first polygon sees, through the cells of half a cube. Solvers fall back to the closed form
+          where that is too near.";
 
 #[derive(clap::Args, Debug)]
 #[command(after_help = NOTES)]
@@ -76,8 +78,8 @@ struct Answer {
 }
 
 pub fn run(options: &Options) -> Result<(), CliError> {
-    let occluders = options.occluder.iter().map(|occluder| occluder.0.clone()).collect();
-    let pair = Pair::new(options.from.0.clone(), options.to.0.clone(), occluders);
+    let occluders: Vec<_> = options.occluder.iter().map(|occluder| occluder.0.clone()).collect();
+    let pair = Pair::new(&options.from.0, &options.to.0, &occluders);
     let reference = pair.reference();
     let answers: Vec<Answer> = options.method.0.iter().map(|&method| ask(&pair, method, reference, options)).collect();
     print(&answers, reference, options)?;

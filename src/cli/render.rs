@@ -4,6 +4,7 @@ use super::run_options::{RunOptions, Solved};
 use super::solve::report;
 use super::{Cli, CliError, picture, values};
 use crate::camera::Camera;
+use crate::cancel::Cancel;
 use crate::choice::{self, Choice};
 use crate::methods::{Solver, radiosity};
 use crate::scene::Viewpoint;
@@ -228,7 +229,7 @@ impl Options {
             }
             (None, None) => return Ok(None),
         };
-        Ok(Some(Arc::new(radiosity::pick(world, &self.run.settings(), patch))))
+        Ok(radiosity::pick(world, &self.run.settings(), patch, &Cancel::default()).map(Arc::new))
     }
 
     /// At the scene's viewpoint, as far as no option says otherwise.

@@ -121,8 +121,7 @@ impl RunOptions {
         }
         let mut solution = run.solution();
         // However it ended, this says whether it would have ended by itself.
-        solution.converged =
-            solution.energy.unshot_share() <= Settings::default().unshot_limit.max(settings.unshot_limit);
+        solution.converged = solution.unshot_share <= Settings::default().unshot_limit.max(settings.unshot_limit);
         Ok(Solved { world, settings, solution })
     }
 }

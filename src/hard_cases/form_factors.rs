@@ -89,7 +89,7 @@ fn sunk_wall() -> Stage {
 /// F from one object to another, as the program computes it before rows are scaled.
 fn between(stage: &Stage, from: &str, to: &str, rows: &Rows) -> Result<f64, Cancelled> {
     let world = world(stage.open("pair"), one_patch(), rows.cancel)?;
-    let seen = pick(&world, &Settings::default(), patch_of(&world, from));
+    let seen = pick(&world, &Settings::default(), patch_of(&world, from), rows.cancel).ok_or(Cancelled)?;
     Ok(seen.form_factors[patch_of(&world, to) as usize])
 }
 

@@ -178,7 +178,7 @@ fn lamp_in_the_ceiling(rows: &mut Rows) -> Result<(), Cancelled> {
     // Areas are sums of some thousand numbers in double precision, of corners in single precision.
     rows.check("surface that light can reach, m²", world.mesh.area(), about(6.0, 1e-6), guard);
     let lamp = patch_of(&world, "lamp");
-    let seen = pick(&world, &Settings::default(), lamp);
+    let seen = pick(&world, &Settings::default(), lamp, rows.cancel).ok_or(Cancelled)?;
     let mut patches: Vec<u32> = floor_of(&world).map(|i| world.mesh.elements[i].patch).collect();
     patches.dedup();
     let got: f64 = patches.iter().map(|&patch| seen.form_factors[patch as usize]).sum();

@@ -113,7 +113,7 @@ fn rough_form_factors(rows: &mut Rows) -> Result<(), Cancelled> {
     );
     let world = world(plates(0.1).open("plates"), single(1.001), rows.cancel)?;
     let settings = Settings { form_factor: FormFactorMethod::Centroid, ..Settings::default() };
-    let seen = pick(&world, &settings, patch_of(&world, "floor"));
+    let seen = pick(&world, &settings, patch_of(&world, "floor"), rows.cancel).ok_or(Cancelled)?;
     let guard = "form factors above 1 are cut down to 1 before a solver gets them, and counted";
     rows.check(
         "centroid F, gap 0.1, as solvers get it",
@@ -157,7 +157,7 @@ fn hemicube(rows: &mut Rows) -> Result<(), Cancelled> {
     let mesh = MeshSettings { element_size: Some(1.001 / 16.0), elements_per_patch_edge: 16 };
     let world = world(plates(1.0).open("plates"), mesh, rows.cancel)?;
     let settings = Settings { form_factor: FormFactorMethod::Hemicube, ..Settings::default() };
-    let seen = pick(&world, &settings, patch_of(&world, "floor"));
+    let seen = pick(&world, &settings, patch_of(&world, "floor"), rows.cancel).ok_or(Cancelled)?;
     let guard = "pairs nearer than five radii are computed in closed form";
     let exact = parallel_rectangles(1.0, 1.0, 1.0);
     rows.check(
@@ -191,12 +191,12 @@ fn furnace(rows: &mut Rows) -> Result<(), Cancelled> {
         );
     }
     let settings = Settings { form_factor: FormFactorMethod::Rays, light_rays: 100_000, ..Settings::default() };
-    let off = (0..world.mesh.patches.len() as u32).map(|patch| {
-        let seen = pick(&world, &settings, patch);
-        (seen.form_factors.iter().sum::<f64>() + seen.escaping - 1.0).abs()
-    });
     // Sums of a hundred shares of the same number of rays.
-    let worst = off.fold(0.0, f64::max);
+    let mut worst = 0.0_f64;
+    for patch in 0..world.mesh.patches.len() as u32 {
+        let seen = pick(&world, &settings, patch, rows.cancel).ok_or(Cancelled)?;
+        worst = worst.max((seen.form_factors.iter().sum::<f64>() + seen.escaping - 1.0).abs());
+    }
     rows.check(
         "largest error of a row of F by rays",
         worst,

@@ -33,6 +33,33 @@ impl<V> Sparse<V> {
         self.starts.push(self.columns.len());
     }
 
+    /// Rows and columns exchanged, of a square matrix.
+    pub fn transposed(&self) -> Self
+    where
+        V: Copy + Default,
+    {
+        let mut starts = vec![0; self.starts.len()];
+        for &column in &self.columns {
+            starts[column as usize + 1] += 1;
+        }
+        for i in 1..starts.len() {
+            starts[i] += starts[i - 1];
+        }
+        let mut next = starts.clone();
+        let mut columns = vec![0; self.columns.len()];
+        let mut values = vec![V::default(); self.values.len()];
+        for row in 0..self.rows() {
+            let (row_columns, row_values) = self.row(row);
+            for (&column, &value) in row_columns.iter().zip(row_values) {
+                let place = next[column as usize];
+                columns[place] = row as u32;
+                values[place] = value;
+                next[column as usize] += 1;
+            }
+        }
+        Self { starts, columns, values }
+    }
+
     pub fn rows(&self) -> usize {
         self.starts.len() - 1
     }
@@ -71,6 +98,15 @@ mod tests {
         assert_eq!((matrix.rows(), matrix.entries()), (3, 3));
         assert_eq!(matrix.row(0), (&[1, 4][..], &[0.5, 0.25][..]));
         assert_eq!(matrix.row(1), (&[][..], &[][..]));
+        let mut square = Sparse::with_capacity(2, 3);
+        square.push(0, 1.0);
+        square.push(1, 2.0);
+        square.end_row();
+        square.push(0, 3.0);
+        square.end_row();
+        let transposed = square.transposed();
+        assert_eq!((transposed.row(0), transposed.row(1)), ((&[0, 1][..], &[1.0, 3.0][..]), (&[0][..], &[2.0][..])));
+        assert_eq!(transposed.transposed(), square);
         matrix.row_mut(2).1[0] = 2.0;
         assert_eq!(matrix.row(2), (&[0][..], &[2.0][..]));
     }

@@ -22,6 +22,9 @@ pub struct Solution {
     pub energy: Energy,
     pub closure: Closure,
     pub counters: Counters,
+    /// Share of the emitted flux that is still to be shot, Σ A |ΔB| / Φ, in [0, 1]: what the stop rule looks at. Where more was
+    /// shot than had arrived, that counts as well. 0 where nothing is emitted.
+    pub unshot_share: f64,
     /// Mean irradiance of all surfaces, W/m² summed over RGB.
     pub mean_irradiance: f64,
     /// The patch that shot last.
@@ -75,12 +78,6 @@ impl Energy {
     /// What the ledger lost or made up: emitted − absorbed − unshot − escaped. Rounding, or a bug.
     pub fn defect(&self) -> Rgb64 {
         self.emitted - self.absorbed - self.unshot - self.escaped
-    }
-
-    /// Unshot share of the emitted flux in [0, 1]; 0 where nothing is emitted.
-    pub fn unshot_share(&self) -> f64 {
-        let emitted = total(self.emitted);
-        if emitted > 0.0 { total(self.unshot) / emitted } else { 0.0 }
     }
 }
 

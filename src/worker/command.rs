@@ -2,6 +2,8 @@
 
 use crate::methods::Settings;
 use crate::scene::Scene;
+use crate::world::World;
+use std::fmt;
 use std::sync::Arc;
 
 /// Commands take effect in the order they are sent; of several of one kind the newest wins.
@@ -21,8 +23,28 @@ pub enum Command {
     Step(u64),
     /// Starts over from the emitters, paused.
     Reset,
-    /// Computes what this patch sees, or forgets about it.
-    Pick(Option<u32>),
+    /// Computes what this patch sees, or forgets about it. Without effect if another world is on show by then.
+    Pick(Option<Place>),
+}
+
+/// A patch of a world.
+#[derive(Clone)]
+pub struct Place {
+    pub world: Arc<World>,
+    /// Index among the patches of its mesh.
+    pub patch: u32,
+}
+
+impl PartialEq for Place {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.world, &other.world) && self.patch == other.patch
+    }
+}
+
+impl fmt::Debug for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "patch {} of {}", self.patch, self.world.scene.name)
+    }
 }
 
 /// A scene that is in memory. Two are equal if they are the same copy.

@@ -39,7 +39,7 @@ impl CurvePoint {
             updates: solution.counters.updates,
             rays: solution.counters.rays,
             seconds: solution.elapsed.as_secs_f64(),
-            unshot: solution.energy.unshot_share(),
+            unshot: solution.unshot_share,
             missing: solution.missing_share(),
         }
     }
@@ -62,6 +62,7 @@ impl History {
     pub fn begin(&mut self, settings: &Settings) {
         if self.curves.last().is_some_and(|curve| curve.points.len() < 2) {
             self.curves.pop();
+            self.started -= 1;
         }
         self.started += 1;
         self.curves.push(Arc::new(Curve { number: self.started, settings: *settings, points: Vec::new() }));
@@ -127,6 +128,6 @@ mod tests {
         history.record(&solution(1));
         history.begin(&Settings::default());
         let numbers: Vec<u32> = history.curves().iter().map(|curve| curve.number).collect();
-        assert_eq!(numbers, [2, 3]);
+        assert_eq!(numbers, [1, 2]);
     }
 }

@@ -9,7 +9,7 @@ use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 pub struct Mailbox {
     queue: Mutex<Queue>,
     posted: Condvar,
-    /// Stops a step: any command does.
+    /// Stops a step: commands do that change what is computed, or whether.
     step: Cancel,
     /// Stops the opening of a scene: only another scene does.
     load: Cancel,
@@ -42,8 +42,11 @@ impl Mailbox {
         if opens_a_scene(&command) || matches!(command, Command::Configure(_)) {
             self.mesh.request();
         }
+        // More steps can wait for the one under way, and what a patch sees is computed between steps.
+        if !matches!(command, Command::Step(_) | Command::Pick(_)) {
+            self.step.request();
+        }
         merge(&mut queue.commands, command);
-        self.step.request();
         self.posted.notify_one();
     }
 

@@ -12,7 +12,7 @@ mod run;
 mod solver;
 
 pub use checks::{CheckReport, Checks};
-pub use command::{Command, Shown};
+pub use command::{Command, Place, Shown};
 pub use history::{Curve, CurvePoint};
 pub use run::{Refused, Run};
 

@@ -2,12 +2,12 @@
 
 use super::history::History;
 use super::mailbox::{Mail, Mailbox};
-use super::{Command, Phase, Refused, Run, Slot, Snapshot, StartMethod};
+use super::{Command, Phase, Place, Refused, Run, Slot, Snapshot, StartMethod};
 use crate::errors::with_causes;
 use crate::mesh::MeshSettings;
 use crate::methods::{Settings, Step, radiosity};
 use crate::scene::Scene;
-use crate::solution::{Picked, Solution};
+use crate::solution::Solution;
 use crate::world::{World, WorldError, with_ceiling_light};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -48,6 +48,8 @@ pub struct Solver {
     snapshot: Snapshot,
     run: Option<Run>,
     history: History,
+    /// A patch to be looked from when there is no command to serve.
+    wish: Option<u32>,
     /// Steps still to do; `None` while there is no end to them.
     steps_left: Option<u64>,
     published: Instant,
@@ -63,6 +65,7 @@ impl Solver {
             snapshot,
             run: None,
             history: History::default(),
+            wish: None,
             steps_left: None,
             published: Instant::now(),
         }
@@ -71,11 +74,11 @@ impl Solver {
     /// Serves until the mailbox is closed. A panic of a method ends its run, not the thread.
     pub fn serve(mut self) {
         loop {
-            let mail = self.mailbox.take(self.snapshot.phase != Phase::Running);
+            let mail = self.mailbox.take(self.snapshot.phase != Phase::Running && self.wish.is_none());
             let work = match mail {
                 Mail::Closed => return,
                 Mail::Command(command) => catch_unwind(AssertUnwindSafe(|| self.apply(command))),
-                Mail::Empty => catch_unwind(AssertUnwindSafe(|| self.step())),
+                Mail::Empty => catch_unwind(AssertUnwindSafe(|| self.work())),
             };
             if let Err(panic) = work {
                 self.crash(&*panic);
@@ -93,7 +96,7 @@ impl Solver {
             Command::Step(steps) => self.go(Some(steps)),
             Command::Pause => self.pause(),
             Command::Reset => self.restart(),
-            Command::Pick(patch) => self.pick(patch),
+            Command::Pick(place) => self.pick(place),
         }
     }
 
@@ -186,8 +189,9 @@ impl Solver {
                 }
             }
         }
-        let picked = self.snapshot.picked.take().filter(|_| is_same_world);
-        self.snapshot.picked = picked.and_then(|picked| self.look_from(picked.patch));
+        // What is picked is seen by another method now, or is gone with its world.
+        let picked = self.snapshot.picked.take().map(|picked| picked.patch);
+        self.wish = self.wish.or(picked).filter(|_| is_same_world);
         self.history.begin(&self.snapshot.settings);
         if let Some(solution) = self.run.as_ref().map(Run::solution) {
             self.record(solution);
@@ -202,16 +206,41 @@ impl Solver {
         self.publish();
     }
 
-    /// Looks from a patch, or forgets about it.
-    fn pick(&mut self, patch: Option<u32>) {
-        self.snapshot.picked = patch.and_then(|patch| self.look_from(patch));
-        self.publish();
+    /// Wishes to look from a patch, or forgets about it.
+    fn pick(&mut self, place: Option<Place>) {
+        let is_on_show =
+            |place: &Place| self.snapshot.world.as_ref().is_some_and(|world| Arc::ptr_eq(world, &place.world));
+        match place {
+            Some(place) if is_on_show(&place) => self.wish = Some(place.patch),
+            Some(_) => {}
+            None => {
+                self.wish = None;
+                self.snapshot.picked = None;
+                self.publish();
+            }
+        }
     }
 
-    /// What a patch sees by the method of the settings, if there is such a patch.
-    fn look_from(&self, patch: u32) -> Option<Arc<Picked>> {
-        let world = self.snapshot.world.as_ref().filter(|world| (patch as usize) < world.mesh.patches.len())?;
-        Some(Arc::new(radiosity::pick(world, &self.snapshot.settings, patch)))
+    /// What there is to do without a command.
+    fn work(&mut self) {
+        match self.wish {
+            Some(patch) => self.look_from(patch),
+            None => self.step(),
+        }
+    }
+
+    /// Computes what a patch sees by the method of the settings; if interrupted, the wish stays.
+    fn look_from(&mut self, patch: u32) {
+        let Some(world) = self.snapshot.world.as_ref() else { return };
+        // Should it panic, it is not tried again.
+        self.wish = None;
+        match radiosity::pick(world, &self.snapshot.settings, patch, self.mailbox.step_cancel()) {
+            Some(picked) => {
+                self.snapshot.picked = Some(Arc::new(picked));
+                self.publish();
+            }
+            None => self.wish = Some(patch),
+        }
     }
 
     fn record(&mut self, solution: Solution) {

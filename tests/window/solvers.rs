@@ -163,7 +163,7 @@ fn a_view_that_lacks_something_says_what_to_do() {
     assert_eq!(chosen.query_all_by_label("Run").count(), 2, "the transport's and the banner's");
     let look = Look { view: View::FormFactors, ..Look::default() };
     let solution = Some(Solution { shooter: Some(17), ..solution() });
-    let pick = [Action::Send(Command::Pick(Some(17)))];
+    let pick = [Action::PickPatch(17)];
     assert_eq!(click(Stage { missing, look, solution, ..Stage::default() }, "Pick the shooter"), pick);
 }
 

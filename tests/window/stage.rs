@@ -160,6 +160,7 @@ pub fn solution() -> Solution {
         steps: 1_234,
         elapsed: Duration::from_millis(2_500),
         converged: false,
+        unshot_share: 0.3,
         energy: Energy { emitted: watts(10.0), absorbed: watts(6.0), unshot: watts(3.0), escaped: watts(1.0) },
         closure: Closure { mean: 0.0123, worst: 0.07, reciprocity: 2e-6 },
         counters: Counters { rays: 31_000_000, ..Counters::default() },

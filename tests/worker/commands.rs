@@ -66,7 +66,7 @@ fn a_new_stop_rule_keeps_the_progress() {
     worker.send(Command::Run);
     let end = wait_for(&worker, "converged", |now| now.phase == Phase::Converged);
     let solution = end.solution.as_ref().expect("a solution");
-    assert!(solution.converged && solution.energy.unshot_share() <= 0.9);
+    assert!(solution.converged && solution.unshot_share <= 0.9);
     // A stricter rule takes the word back.
     worker.send(Command::Configure(Settings { unshot_limit: 0.5, ..settings }));
     let after = wait_for(&worker, "configured", |now| now.settings.unshot_limit == 0.5);

@@ -68,7 +68,7 @@ fn remedy_for_view(model: &Model) -> Option<Remedy> {
         View::FormFactors => model.solution.and_then(|solution| solution.shooter).map(|shooter| Remedy {
             name: "Pick the shooter",
             hover: "Picks the patch that shot last",
-            action: Action::Send(Command::Pick(Some(shooter))),
+            action: Action::PickPatch(shooter),
         }),
         _ => None,
     }

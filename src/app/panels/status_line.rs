@@ -49,7 +49,7 @@ fn run(ui: &mut Ui, model: &Model, solution: &Solution) {
     item(ui, format::duration(solution.elapsed), "Time that the solver has worked; drawing and waiting do not count");
     item(
         ui,
-        format!("{} unshot", format::percent(solution.energy.unshot_share())),
+        format!("{} unshot", format::percent(solution.unshot_share)),
         "Share of the emitted flux that still waits to be passed on",
     );
 }

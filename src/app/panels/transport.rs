@@ -105,7 +105,7 @@ fn solution_text(solution: &Solution) -> String {
         Some(share) => format!("Building matrix {}", format::percent_whole(share)),
         None if solution.energy.emitted == Rgb64::ZERO => "No light".to_owned(),
         None if solution.converged => "Converged".to_owned(),
-        None => format!("{} unshot", format::percent(solution.energy.unshot_share())),
+        None => format!("{} unshot", format::percent(solution.unshot_share)),
     }
 }
 

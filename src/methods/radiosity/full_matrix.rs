@@ -5,7 +5,7 @@ use super::matrix::{Columns, Matrix};
 use super::relax::{Relaxation, System};
 use super::surfaces::Surfaces;
 use crate::cancel::Cancel;
-use crate::math::rgb::{Rgb, Rgb64, total};
+use crate::math::rgb::{Rgb, Rgb64};
 use crate::mesh::Mesh;
 use crate::methods::{Method, Settings, Solver, Step};
 use crate::solution::{Counters, Energy, Solution};
@@ -67,7 +67,7 @@ impl FullMatrix {
     }
 
     fn is_converged(&self, unshot: &[Rgb64]) -> bool {
-        self.surfaces.absolute_flux(unshot) <= self.settings.unshot_limit * total(self.surfaces.emitted)
+        self.surfaces.share_of_emitted(unshot) <= self.settings.unshot_limit
     }
 
     /// Before the first sweep or shot.
@@ -197,12 +197,13 @@ impl Method for FullMatrix {
 
     /// The matrix is the same for all solvers.
     fn restart(&mut self, settings: &Settings) -> bool {
-        let Stage::Solving(matrix, relaxation) = &mut self.stage else { return false };
         let Settings { solver, unshot_limit, overshoot, .. } = *settings;
         if !solver.needs_matrix() || *settings != (Settings { solver, unshot_limit, overshoot, ..self.settings }) {
             return false;
         }
-        *relaxation = Relaxation::new(&system(&self.surfaces, matrix));
+        if let Stage::Solving(matrix, relaxation) = &mut self.stage {
+            *relaxation = Relaxation::new(&system(&self.surfaces, matrix));
+        }
         self.settings = *settings;
         self.begin();
         true
@@ -244,6 +245,7 @@ impl Method for FullMatrix {
             },
             closure: matrix.map(|matrix| matrix.closure).unwrap_or_default(),
             counters: self.counters,
+            unshot_share: self.surfaces.share_of_emitted(&unshot),
             mean_irradiance,
             shooter: self.shooter,
             light: self.surfaces.light(mesh, &irradiance, &unshot),

@@ -5,9 +5,10 @@
 
 use super::form_factor::{Outcome, out_of_sight};
 use crate::cancel::{Cancel, Cancelled};
+use crate::math::rgb::Rgb;
 use crate::math::sparse::Sparse;
 use crate::mesh::{Mesh, Patch};
-use crate::solution::{Closure, FormFactorMatrix, Zero};
+use crate::solution::{Closure, FormFactorMatrix, Solution, Zero};
 use crate::world::World;
 use std::sync::Arc;
 
@@ -65,10 +66,11 @@ impl Matrix {
     /// Bytes that a matrix of a mesh takes at most, with what is needed to build it.
     pub fn bytes(mesh: &Mesh) -> u64 {
         let (patches, elements) = (mesh.patches.len(), mesh.elements.len());
-        // Two of each while one is made from the other.
+        // Elements: as computed and as agreed on. Patches: as computed, transposed, the mean, and zeros.
         2 * Sparse::<f32>::bytes(patches, patches * elements)
-            + 2 * Sparse::<f64>::bytes(patches, patches * patches)
+            + 3 * Sparse::<f64>::bytes(patches, patches * patches)
             + (patches * patches * size_of::<Option<Zero>>()) as u64
+            + ((Solution::MAX_BOUNCES + 1) * elements * size_of::<Rgb>()) as u64
     }
 
     /// Makes form factors reciprocal and rows close. Both estimates of what two patches exchange, A_i F_ij and A_j F_ji, are
@@ -81,12 +83,21 @@ impl Matrix {
         let mesh = &world.mesh;
         let Columns { toward, escaping } = columns;
         let raw = exchanges(mesh, toward, cancel)?;
-        let transposed = transposed(&raw, cancel)?;
+        let transposed = raw.transposed();
         let mut exchange = mean(&raw, &transposed, cancel)?;
         let closure = closure(mesh, &raw, &transposed, escaping);
         drop(transposed);
         let area: Vec<f64> = mesh.patches.iter().map(|patch| patch.area).collect();
-        let wanted: Vec<f64> = area.iter().zip(escaping).map(|(area, escaping)| area * (1.0 - escaping)).collect();
+        // As one row closes by itself: what arrives and what escapes are scaled alike. Where most of the light escapes, the
+        // noise of its rays must not be forced onto the little that arrives.
+        let leaving = |i: usize| exchange.row(i).1.iter().sum::<f64>() / area[i] + escaping[i];
+        let leaving: Vec<f64> = (0..area.len()).map(|i| if area[i] > 0.0 { leaving(i) } else { 0.0 }).collect();
+        let escaping: Vec<f64> = leaving
+            .iter()
+            .zip(escaping)
+            .map(|(leaving, share)| if *leaving > 0.0 { share / leaving } else { 1.0 })
+            .collect();
+        let wanted: Vec<f64> = area.iter().zip(&escaping).map(|(area, escaping)| area * (1.0 - escaping)).collect();
         close(&mut exchange, &wanted, &area, cancel)?;
         let elements = spread(mesh, toward, &raw, &exchange, cancel)?;
         drop(raw);
@@ -168,26 +179,6 @@ fn merged<'a>(
     })
 }
 
-/// Rows and columns exchanged, of a square matrix.
-fn transposed(matrix: &Sparse, cancel: &Cancel) -> Result<Sparse, Cancelled> {
-    let mut columns: Vec<Vec<(u32, f64)>> = vec![Vec::new(); matrix.rows()];
-    for i in 0..matrix.rows() {
-        unless(cancel)?;
-        let (indices, values) = matrix.row(i);
-        for (&j, &value) in indices.iter().zip(values) {
-            columns[j as usize].push((i as u32, value));
-        }
-    }
-    let mut transposed = Sparse::with_capacity(matrix.rows(), matrix.entries());
-    for column in columns {
-        for (i, value) in column {
-            transposed.push(i, value);
-        }
-        transposed.end_row();
-    }
-    Ok(transposed)
-}
-
 /// How far rows were from closing and pairs from agreeing.
 fn closure(mesh: &Mesh, raw: &Sparse, transposed: &Sparse, escaping: &[f64]) -> Closure {
     let rows = || (0..raw.rows()).filter(|&j| mesh.patches[j].area > 0.0);
@@ -210,6 +201,7 @@ fn closure(mesh: &Mesh, raw: &Sparse, transposed: &Sparse, escaping: &[f64]) -> 
 /// be while the others stay. That descends to the minimum of ½ dᵀ M d − Σ w log d, which is where all rows sum to w.
 fn close(matrix: &mut Sparse, wanted: &[f64], area: &[f64], cancel: &Cancel) -> Result<(), Cancelled> {
     let mut scale = vec![1.0; matrix.rows()];
+    let mut before = f64::INFINITY;
     for _ in 0..MAX_SWEEPS {
         unless(cancel)?;
         let mut worst = 0.0_f64;
@@ -221,9 +213,11 @@ fn close(matrix: &mut Sparse, wanted: &[f64], area: &[f64], cancel: &Cancel) -> 
                 scale[i] = wanted[i] / sum;
             }
         }
-        if worst < CLOSED {
+        // Sums that contradict each other come no nearer, and factors would run away.
+        if worst < CLOSED || worst >= before {
             break;
         }
+        before = worst;
     }
     for i in 0..matrix.rows() {
         let here = scale[i];

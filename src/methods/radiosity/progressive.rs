@@ -61,8 +61,7 @@ impl Progressive {
     }
 
     fn has_converged(&self) -> bool {
-        let limit = self.settings.unshot_limit * total(self.surfaces.emitted);
-        self.surfaces.absolute_flux(&self.unshot) <= limit
+        self.surfaces.share_of_emitted(&self.unshot) <= self.settings.unshot_limit
     }
 
     /// What the patch shoots, W/m²: its unshot radiosity. Overshooting (Feda, Purgathofer 1992) adds what the patch will
@@ -162,6 +161,7 @@ impl Method for Progressive {
             },
             closure: self.ledger.closure(),
             counters: self.counters,
+            unshot_share: self.surfaces.share_of_emitted(&self.unshot),
             mean_irradiance: self.surfaces.mean_irradiance(&patch_irradiance),
             shooter: self.shooter,
             light: self.surfaces.light(mesh, &self.irradiance, &self.unshot),

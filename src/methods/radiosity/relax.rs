@@ -12,7 +12,8 @@ use rayon::prelude::*;
 pub struct System<'a> {
     /// F_ij, row by row, with A_i F_ij = A_j F_ji.
     pub form_factors: &'a Sparse,
-    /// Factor on what each patch sends, by which its row closes to the last bit; 1 within rounding.
+    /// Factor on what each patch sends, by which its row closes to the last bit: 1 but for rounding where a symmetric matrix
+    /// with all the wanted sums exists.
     pub closing: &'a [f64],
     /// m²
     pub area: &'a [f64],

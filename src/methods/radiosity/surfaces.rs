@@ -41,9 +41,11 @@ impl Surfaces {
         self.area.iter().zip(per_area).map(|(area, value)| *value * *area).sum()
     }
 
-    /// Σ A |b|, summed over RGB.
-    pub fn absolute_flux(&self, per_area: &[Rgb64]) -> f64 {
-        self.area.iter().zip(per_area).map(|(area, value)| total(value.abs()) * area).sum()
+    /// Σ A |b|, summed over RGB, as a share of the emitted flux; 0 where nothing is emitted.
+    pub fn share_of_emitted(&self, per_area: &[Rgb64]) -> f64 {
+        let flux: f64 = self.area.iter().zip(per_area).map(|(area, value)| total(value.abs()) * area).sum();
+        let emitted = total(self.emitted);
+        if emitted > 0.0 { flux / emitted } else { 0.0 }
     }
 
     /// Total exposed area, m².

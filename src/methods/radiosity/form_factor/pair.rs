@@ -1,4 +1,5 @@
-//! Form factors of one pair of polygons by every method, as a solver would compute them, beside the truth.
+//! Form factors of one pair of polygons by every method in its plain form, beside the truth. Solvers guard the methods besides:
+//! they cut down what is above 1, see by shares of rays, and leave near pairs to the closed form.
 
 use super::centroid::{Facet, centroid, disc};
 use super::hemicube::{Hemicube, Item};
@@ -76,7 +77,12 @@ fn single(corners: &[DVec3]) -> Vec<Vec3> {
 
 impl Pair {
     /// Each polygon has three or four corners, counter-clockwise seen from its front; occluders hide from both sides.
-    pub fn new(from: Vec<DVec3>, to: Vec<DVec3>, occluders: Vec<Vec<DVec3>>) -> Self {
+    pub fn new(from: &[DVec3], to: &[DVec3], occluders: &[Vec<DVec3>]) -> Self {
+        // Rays and hemicubes work in single precision, which has digits to spare near the origin only.
+        let middle = from.iter().sum::<DVec3>() / from.len() as f64;
+        let near = |corners: &[DVec3]| corners.iter().map(|corner| corner - middle).collect::<Vec<_>>();
+        let (from, to) = (near(from), near(to));
+        let occluders: Vec<Vec<DVec3>> = occluders.iter().map(|corners| near(corners)).collect();
         let polygons = [&from, &to].into_iter().chain(&occluders);
         let triangles: Vec<(u32, [Vec3; 3])> = (FROM..)
             .zip(polygons)

@@ -37,7 +37,7 @@ impl LightRays {
         let exposed = mesh.elements[elements].iter().map(|element| f64::from(element.exposed)).sum::<f64>()
             / shot.shooter().elements.len() as f64;
         let wanted = (f64::from(rays) * shot.flux_share).max(MIN_RAYS);
-        let count = (wanted / exposed.max(LEAST_EXPOSED)).ceil() as u64;
+        let count = ((wanted / exposed.max(LEAST_EXPOSED)).ceil() as u64).min(u64::from(u32::MAX));
         let batch = |batch: u64| self.shoot_batch(shot, batch, BATCH.min(count - batch * BATCH));
         let none = || Ends { escaped: 0, landed: 0 };
         let Ends { escaped, landed } = (0..count.div_ceil(BATCH)).into_par_iter().map(batch).reduce(none, Ends::and);
