@@ -1,7 +1,7 @@
 //! Where the 1/r² of the form factor is singular, or its sum over edges loses digits.
 
 use super::row::{about, exactly};
-use super::stage::{Stage, level, patch_of, solve, world};
+use super::stage::{Stage, level, patch_of, plates, solve, world};
 use super::{Case, Rows};
 use crate::cancel::Cancelled;
 use crate::math::polygon::{area_form_factor, form_factor, parallel_rectangles};
@@ -70,15 +70,6 @@ fn corner() -> Stage {
 /// A unit square above the x axis that looks along z; more of it where its foot is lower.
 fn wall(foot: f64) -> [DVec3; 4] {
     [(0.0, foot), (1.0, foot), (1.0, 1.0), (0.0, 1.0)].map(|(x, y)| DVec3::new(x, y, 0.0))
-}
-
-/// A glowing unit square that looks up at a black one.
-fn plates(gap: f64) -> Stage {
-    Stage::new().object("floor", 0.0, 1.0).level_up([0.0, 1.0], 0.0, [0.0, 1.0]).object("plate", 0.0, 0.0).level_down(
-        [0.0, 1.0],
-        gap,
-        [0.0, 1.0],
-    )
 }
 
 /// A glowing floor, and a wall that goes through it.
