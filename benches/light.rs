@@ -7,12 +7,13 @@
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use glam::{DVec3, Vec3A};
 use lightwell::cancel::Cancel;
+use lightwell::choice::Choice;
 use lightwell::math::polygon::form_factor;
 use lightwell::math::random::Stream;
 use lightwell::math::warp::{cosine_hemisphere, frame};
 use lightwell::mesh::MeshSettings;
-use lightwell::methods::radiosity::Progressive;
-use lightwell::methods::{Method, Settings};
+use lightwell::methods::radiosity::{FullMatrix, Progressive};
+use lightwell::methods::{FormFactorMethod, Method, Settings, Solver};
 use lightwell::scene::Scene;
 use lightwell::tracer::Ray;
 use lightwell::world::World;
@@ -132,9 +133,38 @@ fn shooting(criterion: &mut Criterion) {
     group.finish();
 }
 
+/// All form factors of the Cornell box in about 2,000 patches, with visibility, made reciprocal and closed.
+fn matrix(criterion: &mut Criterion) {
+    let scene = Scene::open("cornell-box").expect("a built-in scene");
+    let mesh = MeshSettings { element_size: Some(0.0345), elements_per_patch_edge: 1 };
+    let world = Arc::new(World::build(scene, &mesh, &Cancel::default()).expect("a world"));
+    let mut group = criterion.benchmark_group("matrix");
+    group.sample_size(10);
+    for &form_factor in FormFactorMethod::ALL {
+        let settings = Settings { solver: Solver::GaussSeidel, form_factor, ..Settings::default() };
+        let built = || {
+            let mut method = FullMatrix::new(world.clone(), settings);
+            for _ in 0..=world.mesh.patches.len() {
+                method.step(&Cancel::default());
+            }
+            method
+        };
+        let solution = built().solution();
+        println!(
+            "matrix/{}: {} patches, {} rays, rows wrong by {:.1e} in the mean before they are closed",
+            form_factor.name(),
+            world.mesh.patches.len(),
+            solution.counters.rays,
+            solution.closure.mean
+        );
+        group.bench_function(form_factor.name(), |bencher| bencher.iter(built));
+    }
+    group.finish();
+}
+
 criterion_group! {
     name = benches;
     config = Criterion::default().warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(4)).without_plots();
-    targets = tracer, form_factors, shooting
+    targets = tracer, form_factors, shooting, matrix
 }
 criterion_main!(benches);

@@ -40,7 +40,7 @@ pub struct Options {
     /// The patch that the views `form-factors` and `item-buffer` are of
     #[arg(long, value_name = "N", group = "picked")]
     patch: Option<u32>,
-    /// The same: the patch seen at this place in the picture, in pixels from the top left
+    /// The same: the patch seen at this place in a view of this size, in pixels from the top left
     #[arg(long, value_name = "X,Y", group = "picked", value_parser = values::pixel)]
     pick: Option<[f32; 2]>,
     /// Outline the elements
@@ -177,9 +177,12 @@ impl Options {
         };
         let picture = render_picture(&gpu, world, &light, &frame, self.samples)?;
         let facts = picture::facts(world, &light, settings, &frame);
-        let report = match Legend::of(view, &light) {
-            Some(legend) => json!({ "legend": { "low": legend.low, "high": legend.high } }),
-            None => json!({ "exposure": frame.exposure_ev }),
+        let report = match &light.picked {
+            Some(picked) if view.is_false_colour() => {
+                let legend = Legend::of(view, &light).map(|legend| json!({ "low": legend.low, "high": legend.high }));
+                json!({ "patch": picked.patch, "legend": legend })
+            }
+            _ => json!({ "exposure": frame.exposure_ev }),
         };
         Ok((solved, Drawn { picture, facts, report }))
     }

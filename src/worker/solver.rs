@@ -7,7 +7,7 @@ use crate::errors::with_causes;
 use crate::mesh::MeshSettings;
 use crate::methods::{Settings, Step, radiosity};
 use crate::scene::Scene;
-use crate::solution::Solution;
+use crate::solution::{Picked, Solution};
 use crate::world::{World, WorldError, with_ceiling_light};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -186,9 +186,8 @@ impl Solver {
                 }
             }
         }
-        if !is_same_world {
-            self.snapshot.picked = None;
-        }
+        let picked = self.snapshot.picked.take().filter(|_| is_same_world);
+        self.snapshot.picked = picked.and_then(|picked| self.look_from(picked.patch));
         self.history.begin(&self.snapshot.settings);
         if let Some(solution) = self.run.as_ref().map(Run::solution) {
             self.record(solution);
@@ -203,13 +202,16 @@ impl Solver {
         self.publish();
     }
 
-    /// Computes what a patch sees. Superseded by any newer command that would change it.
+    /// Looks from a patch, or forgets about it.
     fn pick(&mut self, patch: Option<u32>) {
-        let Some(world) = &self.snapshot.world else { return };
-        let patch = patch.filter(|&patch| (patch as usize) < world.mesh.patches.len());
-        let look = |patch| radiosity::pick(world, &self.snapshot.settings, patch);
-        self.snapshot.picked = patch.map(|patch| Arc::new(look(patch)));
+        self.snapshot.picked = patch.and_then(|patch| self.look_from(patch));
         self.publish();
+    }
+
+    /// What a patch sees by the method of the settings, if there is such a patch.
+    fn look_from(&self, patch: u32) -> Option<Arc<Picked>> {
+        let world = self.snapshot.world.as_ref().filter(|world| (patch as usize) < world.mesh.patches.len())?;
+        Some(Arc::new(radiosity::pick(world, &self.snapshot.settings, patch)))
     }
 
     fn record(&mut self, solution: Solution) {

@@ -7,7 +7,7 @@ use crate::{
 use glam::{Vec2, Vec3};
 use lightwell::math::rgb::Rgb;
 use lightwell::mesh::Element;
-use lightwell::scene::Polygon;
+use lightwell::scene::{Material, Polygon};
 use lightwell::solution::Solution;
 use lightwell::viewport::{Frame, View, render_picture};
 use std::f32::consts::PI;
@@ -81,9 +81,13 @@ fn distance_to_outline(corners: &[Vec2], point: Vec2) -> f32 {
 fn what_is_hidden_shows_neither_light_nor_outlines() {
     let Some(gpu) = gpu() else { return };
     let mut scene = plane_scene(&[0, 1, 2, 3], 1.0, Vec3::ZERO);
-    let nearer: Vec<Vec3> = scene.positions.iter().map(|&position| position + Vec3::Z).collect();
-    scene.positions.extend(nearer);
+    let square = scene.positions.clone();
+    let moved = |along: Vec3| square.iter().map(move |&position| position + along).collect::<Vec<Vec3>>();
+    scene.positions.extend([moved(Vec3::Z), moved(Vec3::NEG_Z)].concat());
     scene.polygons.push(Polygon::new(&[4, 5, 6, 7], 0, 0, 0));
+    // Behind both something is dark: where all surfaces glow, they would be turned to face each other.
+    scene.materials.push(Material::grey("dark"));
+    scene.polygons.push(Polygon::new(&[8, 9, 10, 11], 1, 0, 0));
     let world = build(scene, 0.5);
     let patch_of = |element: usize| &world.mesh.patches[world.mesh.elements[element].patch as usize];
     let mut solution = solution(&world, |element| Rgb::splat(if patch_of(element).polygon == 1 { PI } else { 1e3 }));

@@ -150,6 +150,9 @@ const ADAPTER: &str = "llvmpipe (LLVM 15.0.6, 256 bits) (vulkan)";
 /// Height of the status line.
 const STATUS_LINE: f32 = 32.0;
 
+/// Height of a line of small text.
+const SMALL_TEXT: f32 = 14.5;
+
 /// 10 W emitted, of which 6 W are absorbed, 3 W unshot and 1 W escaped.
 pub fn solution() -> Solution {
     let watts = |red: f64| Rgb64::new(red, 0.0, 0.0);
@@ -288,9 +291,10 @@ pub fn texts(harness: &Harness<Stage>, size: Vec2) -> Vec<(String, Rect)> {
         let is_label = accesskit_node.role() == egui::accesskit::Role::Label;
         let text = accesskit_node.value().filter(|text| is_label && !text.is_empty())?;
         let is_in_side_panel = min.x > size.x - 320.0 && min.y > 80.0 && text != ADAPTER;
-        // A list shows its last row in part.
-        let status_line = size.y - STATUS_LINE;
-        let is_scrolled_away = rect.bottom() > status_line && (is_in_side_panel || min.y < status_line);
+        // A list above the status line shows its last row in part, or only the space above its text. The status line is
+        // written small.
+        let is_in_list = min.y < size.y - STATUS_LINE || rect.height() > SMALL_TEXT;
+        let is_scrolled_away = rect.bottom() > size.y - STATUS_LINE && (is_in_side_panel || is_in_list);
         (!is_scrolled_away).then_some((text, rect))
     };
     nodes.filter_map(text).collect()

@@ -87,8 +87,7 @@ impl FullMatrix {
         let Stage::Building(building) = &mut self.stage else { return Step::Prepared };
         let patch = building.columns.len();
         if patch == self.world.mesh.patches.len() {
-            let columns = std::mem::replace(&mut building.columns, Columns::new(&self.world.mesh));
-            let matrix = Matrix::new(&self.world, columns);
+            let Ok(matrix) = Matrix::new(&self.world, &building.columns, cancel) else { return Step::Cancelled };
             let relaxation = Relaxation::new(&system(&self.surfaces, &matrix));
             self.stage = Stage::Solving(Box::new(matrix), relaxation);
             self.begin();

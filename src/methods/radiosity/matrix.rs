@@ -4,6 +4,7 @@
 //! share of it by the form factor from each element to each patch, so that a shadow's edge is seen where it falls.
 
 use super::form_factor::{Outcome, out_of_sight};
+use crate::cancel::{Cancel, Cancelled};
 use crate::math::sparse::Sparse;
 use crate::mesh::{Mesh, Patch};
 use crate::solution::{Closure, FormFactorMatrix, Zero};
@@ -73,21 +74,25 @@ impl Matrix {
     /// Makes form factors reciprocal and rows close. Both estimates of what two patches exchange, A_i F_ij and A_j F_ji, are
     /// replaced by their mean; then D A F D with a diagonal matrix D has the row sums that it must have, stays symmetric
     /// and keeps its zeros (Sinkhorn, Knopp 1967).
-    pub fn new(world: &World, columns: Columns) -> Self {
+    ///
+    /// # Errors
+    /// If cancelled.
+    pub fn new(world: &World, columns: &Columns, cancel: &Cancel) -> Result<Self, Cancelled> {
         let mesh = &world.mesh;
         let Columns { toward, escaping } = columns;
-        let raw = exchanges(mesh, &toward);
-        let mut exchange = symmetric(&raw);
-        let closure = closure(mesh, &raw, &escaping);
+        let raw = exchanges(mesh, toward, cancel)?;
+        let transposed = transposed(&raw, cancel)?;
+        let mut exchange = mean(&raw, &transposed, cancel)?;
+        let closure = closure(mesh, &raw, &transposed, escaping);
+        drop(transposed);
         let area: Vec<f64> = mesh.patches.iter().map(|patch| patch.area).collect();
-        let wanted: Vec<f64> = area.iter().zip(&escaping).map(|(area, escaping)| area * (1.0 - escaping)).collect();
-        close(&mut exchange, &wanted, &area);
-        let elements = spread(mesh, &toward, &raw, &exchange);
-        drop(toward);
-        let escaping = escaping.into_iter().enumerate();
+        let wanted: Vec<f64> = area.iter().zip(escaping).map(|(area, escaping)| area * (1.0 - escaping)).collect();
+        close(&mut exchange, &wanted, &area, cancel)?;
+        let elements = spread(mesh, toward, &raw, &exchange, cancel)?;
+        drop(raw);
         // Where nothing is received, everything escapes.
-        let escaping: Vec<f64> =
-            escaping.map(|(i, share)| if exchange.row(i).0.is_empty() { 1.0 } else { share }).collect();
+        let escapes = |(i, share): (usize, &f64)| if exchange.row(i).0.is_empty() { 1.0 } else { *share };
+        let escaping: Vec<f64> = escaping.iter().enumerate().map(escapes).collect();
         let closing = (0..exchange.rows()).map(|i| {
             let sum: f64 = exchange.row(i).1.iter().sum();
             if sum > 0.0 { wanted[i] / sum } else { 0.0 }
@@ -96,21 +101,22 @@ impl Matrix {
         for (i, area) in area.iter().enumerate() {
             exchange.row_mut(i).1.iter_mut().for_each(|value| *value /= area);
         }
-        let zeros = Arc::new(zeros(world, &exchange));
-        Self {
-            patches: FormFactorMatrix { form_factors: Arc::new(exchange), zeros },
-            elements,
-            closing,
-            escaping,
-            closure,
-        }
+        let zeros = Arc::new(zeros(world, &exchange, cancel)?);
+        let patches = FormFactorMatrix { form_factors: Arc::new(exchange), zeros };
+        Ok(Self { patches, elements, closing, escaping, closure })
     }
 }
 
+/// For a look between rows.
+fn unless(cancel: &Cancel) -> Result<(), Cancelled> {
+    if cancel.is_requested() { Err(Cancelled) } else { Ok(()) }
+}
+
 /// Row j: Σ A_e F_ej over the elements e of each patch, m². The flux that patch j sends there, per radiosity.
-fn exchanges(mesh: &Mesh, toward: &Sparse<f32>) -> Sparse {
+fn exchanges(mesh: &Mesh, toward: &Sparse<f32>, cancel: &Cancel) -> Result<Sparse, Cancelled> {
     let mut exchange = Sparse::with_capacity(toward.rows(), 0);
     for j in 0..toward.rows() {
+        unless(cancel)?;
         let (elements, form_factors) = toward.row(j);
         let mut entries = elements.iter().zip(form_factors).peekable();
         while let Some(&(&first, _)) = entries.peek() {
@@ -126,20 +132,20 @@ fn exchanges(mesh: &Mesh, toward: &Sparse<f32>) -> Sparse {
         }
         exchange.end_row();
     }
-    exchange
+    Ok(exchange)
 }
 
 /// (A + Aᵀ)/2.
-fn symmetric(matrix: &Sparse) -> Sparse {
-    let transposed = transposed(matrix);
+fn mean(matrix: &Sparse, transposed: &Sparse, cancel: &Cancel) -> Result<Sparse, Cancelled> {
     let mut mean = Sparse::with_capacity(matrix.rows(), matrix.entries());
     for i in 0..matrix.rows() {
+        unless(cancel)?;
         for (column, one, other) in merged(matrix.row(i), transposed.row(i)) {
             mean.push(column, 0.5 * (one + other));
         }
         mean.end_row();
     }
-    mean
+    Ok(mean)
 }
 
 /// The entries of two rows, column by column, 0 where one has none.
@@ -163,9 +169,10 @@ fn merged<'a>(
 }
 
 /// Rows and columns exchanged, of a square matrix.
-fn transposed(matrix: &Sparse) -> Sparse {
+fn transposed(matrix: &Sparse, cancel: &Cancel) -> Result<Sparse, Cancelled> {
     let mut columns: Vec<Vec<(u32, f64)>> = vec![Vec::new(); matrix.rows()];
     for i in 0..matrix.rows() {
+        unless(cancel)?;
         let (indices, values) = matrix.row(i);
         for (&j, &value) in indices.iter().zip(values) {
             columns[j as usize].push((i as u32, value));
@@ -178,14 +185,13 @@ fn transposed(matrix: &Sparse) -> Sparse {
         }
         transposed.end_row();
     }
-    transposed
+    Ok(transposed)
 }
 
 /// How far rows were from closing and pairs from agreeing.
-fn closure(mesh: &Mesh, raw: &Sparse, escaping: &[f64]) -> Closure {
+fn closure(mesh: &Mesh, raw: &Sparse, transposed: &Sparse, escaping: &[f64]) -> Closure {
     let rows = || (0..raw.rows()).filter(|&j| mesh.patches[j].area > 0.0);
     let error = |j: usize| (raw.row(j).1.iter().sum::<f64>() / mesh.patches[j].area + escaping[j] - 1.0).abs();
-    let transposed = transposed(raw);
     let (mut apart, mut sum) = (0.0, 0.0);
     for j in 0..raw.rows() {
         for (_, one, other) in merged(raw.row(j), transposed.row(j)) {
@@ -202,9 +208,10 @@ fn closure(mesh: &Mesh, raw: &Sparse, escaping: &[f64]) -> Closure {
 
 /// Scales a symmetric matrix to these row sums, D M D for M, as far as that is possible: row after row, as its factor must
 /// be while the others stay. That descends to the minimum of ½ dᵀ M d − Σ w log d, which is where all rows sum to w.
-fn close(matrix: &mut Sparse, wanted: &[f64], area: &[f64]) {
+fn close(matrix: &mut Sparse, wanted: &[f64], area: &[f64], cancel: &Cancel) -> Result<(), Cancelled> {
     let mut scale = vec![1.0; matrix.rows()];
     for _ in 0..MAX_SWEEPS {
+        unless(cancel)?;
         let mut worst = 0.0_f64;
         for i in 0..matrix.rows() {
             let (columns, values) = matrix.row(i);
@@ -226,13 +233,21 @@ fn close(matrix: &mut Sparse, wanted: &[f64], area: &[f64]) {
             *value = (*value * here * scale[j as usize]).min(area[i]).min(area[j as usize]);
         }
     }
+    Ok(())
 }
 
 /// Row j: what each element receives from patch j, so that its patch receives what was agreed on. Where only the other
 /// patch saw this one, the elements share evenly.
-fn spread(mesh: &Mesh, toward: &Sparse<f32>, raw: &Sparse, exchange: &Sparse) -> Sparse<f32> {
+fn spread(
+    mesh: &Mesh,
+    toward: &Sparse<f32>,
+    raw: &Sparse,
+    exchange: &Sparse,
+    cancel: &Cancel,
+) -> Result<Sparse<f32>, Cancelled> {
     let mut spread = Sparse::with_capacity(toward.rows(), toward.entries());
     for j in 0..toward.rows() {
+        unless(cancel)?;
         let (elements, form_factors) = toward.row(j);
         for (patch, agreed, found) in merged(exchange.row(j), raw.row(j)) {
             let Patch { elements: range, area, .. } = &mesh.patches[patch as usize];
@@ -250,19 +265,21 @@ fn spread(mesh: &Mesh, toward: &Sparse<f32>, raw: &Sparse, exchange: &Sparse) ->
         }
         spread.end_row();
     }
-    spread
+    Ok(spread)
 }
 
 /// The reason for each zero, row by row.
-fn zeros(world: &World, form_factors: &Sparse) -> Vec<Option<Zero>> {
+fn zeros(world: &World, form_factors: &Sparse, cancel: &Cancel) -> Result<Vec<Option<Zero>>, Cancelled> {
     let patches = &world.mesh.patches;
     let mut zeros = Vec::with_capacity(patches.len() * patches.len());
     for (i, here) in patches.iter().enumerate() {
+        unless(cancel)?;
+        let out_of_sight = out_of_sight(world, here);
         let mut entries = form_factors.row(i).0.iter().peekable();
-        for (j, there) in patches.iter().enumerate() {
+        zeros.extend(patches.iter().enumerate().map(|(j, there)| {
             let is_zero = entries.next_if(|column| **column as usize == j).is_none();
-            zeros.push(is_zero.then(|| out_of_sight(world, here, there).unwrap_or(Zero::Occluded)));
-        }
+            is_zero.then(|| out_of_sight(there).unwrap_or(Zero::Occluded))
+        }));
     }
-    zeros
+    Ok(zeros)
 }

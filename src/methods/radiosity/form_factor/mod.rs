@@ -94,9 +94,10 @@ impl FormFactors {
     }
 }
 
-/// Why no two points of these patches face each other, or `None` if some do.
-pub fn out_of_sight(world: &World, shooter: &Patch, receiver: &Patch) -> Option<Zero> {
-    Shooter::new(shooter).out_of_sight(receiver, plane_tolerance(world))
+/// Tells of receivers why no two points of them and the shooter face each other, or `None` if some do.
+pub fn out_of_sight(world: &World, shooter: &Patch) -> impl Fn(&Patch) -> Option<Zero> {
+    let (shooter, tolerance) = (Shooter::new(shooter), plane_tolerance(world));
+    move |receiver| shooter.out_of_sight(receiver, tolerance)
 }
 
 /// Planes that are nearer than this are one plane, m: twice as far as a lifted point.
