@@ -1,7 +1,7 @@
 //! Lamps that are tiny, turned away, alone, or not there.
 
 use super::row::{about, exactly};
-use super::stage::{Stage, elements_of, level, single, solve, steps, world};
+use super::stage::{Stage, cube, elements_of, level, single, solve, steps, world};
 use super::{Case, Rows};
 use crate::cancel::Cancelled;
 use crate::math::polygon::form_factor;
@@ -19,13 +19,13 @@ pub const CASES: &[Case] = &[
         name: "tiny-lamp",
         about: "a lamp whose edge is a ten-thousandth of the room's, and its area a hundred-millionth",
         measure: tiny_lamp,
-        scene: || room().object("lamp", 0.0, 1e8).level_down(TINY, 0.875, TINY).show("tiny-lamp"),
+        scene: || cube(0.5, 0.0).object("lamp", 0.0, 1e8).level_down(TINY, 0.875, TINY).show("tiny-lamp"),
     },
     Case {
         name: "no-lamp",
         about: "a scene in which nothing emits",
         measure: no_lamp,
-        scene: || room().show("no-lamp"),
+        scene: || cube(0.5, 0.0).show("no-lamp"),
     },
     Case {
         name: "turned-lamp",
@@ -45,12 +45,8 @@ pub const CASES: &[Case] = &[
 const TINY: [f64; 2] = [0.5 - 1.0 / 16384.0, 0.5 + 1.0 / 16384.0];
 const WIDE: [f64; 2] = [0.3, 0.7];
 
-fn room() -> Stage {
-    Stage::new().object("room", 0.5, 0.0).room(DVec3::ZERO, DVec3::ONE)
-}
-
 fn turned() -> Stage {
-    room().object("lamp", 0.5, 1.0).level_up(WIDE, 0.99, WIDE)
+    cube(0.5, 0.0).object("lamp", 0.5, 1.0).level_up(WIDE, 0.99, WIDE)
 }
 
 fn triangle() -> Stage {
@@ -58,7 +54,7 @@ fn triangle() -> Stage {
 }
 
 fn tiny_lamp(rows: &mut Rows) -> Result<(), Cancelled> {
-    let scene = room().object("lamp", 0.0, 1e8).level_down(TINY, 0.875, TINY).open("lamp");
+    let scene = cube(0.5, 0.0).object("lamp", 0.0, 1e8).level_down(TINY, 0.875, TINY).open("lamp");
     let world = world(scene, single(0.0626), rows.cancel)?;
     // The first shot is the lamp's.
     let solution = steps(&world, &Settings::default(), 1, rows.cancel)?;
@@ -91,7 +87,7 @@ fn tiny_lamp(rows: &mut Rows) -> Result<(), Cancelled> {
 }
 
 fn no_lamp(rows: &mut Rows) -> Result<(), Cancelled> {
-    let scene = room().open("dark");
+    let scene = cube(0.5, 0.0).open("dark");
     let warnings = scene.findings.iter().filter(|finding| finding.kind == FindingKind::NoEmitter).count();
     let world = world(scene, single(0.26), rows.cancel)?;
     let solution = steps(&world, &Settings::default(), 100, rows.cancel)?;
@@ -107,7 +103,7 @@ fn turned_lamp(rows: &mut Rows) -> Result<(), Cancelled> {
         let solution = solve(&world, &Settings::default(), rows.cancel)?;
         Ok((world, solution))
     };
-    let (right_world, right) = light(room().object("lamp", 0.5, 1.0).level_down(WIDE, 0.99, WIDE))?;
+    let (right_world, right) = light(cube(0.5, 0.0).object("lamp", 0.5, 1.0).level_down(WIDE, 0.99, WIDE))?;
     let (world, turned) = light(turned())?;
     let guard = "an emitter that sees only what stands right before it, and has the room behind it, is turned";
     let warnings = world.scene.findings.iter().filter(|finding| finding.kind == FindingKind::EmitterTurned).count();

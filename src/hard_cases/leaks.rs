@@ -2,7 +2,7 @@
 
 use super::oracle::mean_form_factor;
 use super::row::{about, exactly};
-use super::stage::{Stage, elements_of, level, patch_of, room_faces, single, solve, world};
+use super::stage::{GLOW, Stage, cube, elements_of, level, lit_cube, patch_of, room_faces, single, solve, world};
 use super::{Case, Rows};
 use crate::cancel::Cancelled;
 use crate::math::rgb::total;
@@ -19,7 +19,7 @@ pub const CASES: &[Case] = &[
         name: "duplicate-faces",
         about: "a floor that the file states three times, with its corners in another order",
         measure: duplicate_faces,
-        scene: || lit_room().line(DUPLICATES).show("duplicate-faces"),
+        scene: || lit_cube(0.5).line(DUPLICATES).show("duplicate-faces"),
     },
     Case {
         name: "coplanar-faces",
@@ -63,15 +63,6 @@ const SEEN: &str = "every pair of points is asked whether they see each other";
 
 const DUPLICATES: &str = "f 1 2 3 4\nf 3 4 1 2\nf 4 3 2 1";
 
-/// A closed room of a cubic metre; its floor comes first.
-fn room(reflectance: f64, radiance: f64) -> Stage {
-    Stage::new().object("room", reflectance, radiance).room(DVec3::ZERO, DVec3::ONE)
-}
-
-fn lit_room() -> Stage {
-    room(0.5, 0.0).object("lamp", 0.5, 1.0).level_down([0.3, 0.7], 0.9, [0.3, 0.7])
-}
-
 /// Two squares side by side and one farther off in the plane with the normal (1, 2, 3).
 fn tilted_plane() -> Stage {
     let turn = DMat3::from_cols(
@@ -89,7 +80,7 @@ fn tilted_plane() -> Stage {
 }
 
 fn rug() -> Stage {
-    room(0.5, 0.0)
+    cube(0.5, 0.0)
         .object("rug", 0.2, 0.0)
         .level_up([0.25, 0.75], 0.0, [0.25, 0.75])
         .object("lamp", 0.5, 1.0)
@@ -99,7 +90,7 @@ fn rug() -> Stage {
 const LAMP: [f64; 2] = [0.25, 0.75];
 
 fn sunk_lamp() -> Stage {
-    room(0.5, 0.0).object("lamp", 0.5, 1.0).level_down(LAMP, 1.0, LAMP)
+    cube(0.5, 0.0).object("lamp", 0.5, 1.0).level_down(LAMP, 1.0, LAMP)
 }
 
 /// A furnace with M_e = 1 and ρ = ½, and a block in it. The floor and the block are white instead of glowing, which in a
@@ -118,9 +109,6 @@ fn aligned_block(foot: f64) -> [DVec3; 2] {
 /// Half way round the foot of that block, m.
 const FOOT_EDGE: f64 = 2.0 * (0.5 + 0.25);
 
-/// Radiance of what has M_e = 1 W/m².
-const GLOW: f64 = std::f64::consts::FRAC_1_PI;
-
 const CHAMBER_LAMP: [[f64; 2]; 2] = [[0.125, 0.375], [0.25, 0.75]];
 
 /// A black room with a grey floor, a thin wall across, and a lamp on one side of it.
@@ -134,7 +122,7 @@ fn two_chambers(wall: f64) -> Stage {
 
 fn duplicate_faces(rows: &mut Rows) -> Result<(), Cancelled> {
     let guard = "faces with the same corners in any order are left out";
-    let (once, thrice) = (lit_room().open("once"), lit_room().line(DUPLICATES).open("thrice"));
+    let (once, thrice) = (lit_cube(0.5).open("once"), lit_cube(0.5).line(DUPLICATES).open("thrice"));
     rows.check("faces", thrice.polygons.len() as f64, exactly(7.0), guard);
     let light = |scene| {
         let world = world(scene, single(0.2), rows.cancel)?;
@@ -238,7 +226,7 @@ fn block_through_the_floor(rows: &mut Rows) -> Result<(), Cancelled> {
     let on_the_floor = |foot: f64| {
         let [low, high] = aligned_block(foot);
         let world =
-            world(lit_room().object("block", 0.5, 0.0).block(low, high).open("block"), single(0.1251), rows.cancel)?;
+            world(lit_cube(0.5).object("block", 0.5, 0.0).block(low, high).open("block"), single(0.1251), rows.cancel)?;
         let solution = solve(&world, &Settings { unshot_limit: 1e-2, ..Settings::default() }, rows.cancel)?;
         let flux = |i: usize| world.mesh.elements[i].area * f64::from(solution.light.irradiance[i].x);
         Ok((floor_of(&world).map(flux).sum::<f64>(), solution.energy))

@@ -1,13 +1,11 @@
 //! Rooms that reflect nearly all light, or claim to reflect more; lamps of any brightness.
 
 use super::row::{about, exactly};
-use super::stage::{Stage, single, steps, world};
+use super::stage::{GLOW, Stage, cube, single, steps, world};
 use super::{Case, Rows};
 use crate::cancel::Cancelled;
 use crate::methods::{Settings, Solver};
 use crate::scene::{FindingKind, Material, Scene};
-use glam::DVec3;
-use std::f64::consts::FRAC_1_PI;
 
 pub const CASES: &[Case] = &[
     Case {
@@ -32,15 +30,11 @@ pub const CASES: &[Case] = &[
 
 /// A closed cube with M_e = 1 W/m².
 fn furnace(reflectance: f64) -> Stage {
-    Stage::new().object("room", reflectance, FRAC_1_PI).room(DVec3::ZERO, DVec3::ONE)
+    cube(reflectance, GLOW)
 }
 
 fn lamp(radiance: f64) -> Stage {
-    Stage::new().object("room", 0.5, 0.0).room(DVec3::ZERO, DVec3::ONE).object("lamp", 0.0, radiance).level_down(
-        [0.3, 0.7],
-        0.9,
-        [0.2, 0.6],
-    )
+    cube(0.5, 0.0).object("lamp", 0.0, radiance).level_down([0.3, 0.7], 0.9, [0.2, 0.6])
 }
 
 /// More steps than any solver should need here: one that diverges ends, too.

@@ -1,14 +1,13 @@
 //! Faces that are no good: slivers, faces without area, corners that are no numbers.
 
 use super::row::{about, exactly};
-use super::stage::{Stage, elements_of, single, solve, world};
+use super::stage::{GLOW, Stage, elements_of, lit_cube, room_faces, single, solve, world};
 use super::{Case, Rows};
 use crate::cancel::Cancelled;
 use crate::math::random::Stream;
 use crate::methods::Settings;
 use crate::tracer::Ray;
 use glam::{DVec3, Vec3A};
-use std::f64::consts::FRAC_1_PI;
 
 pub const CASES: &[Case] = &[
     Case {
@@ -29,26 +28,18 @@ const WIDTH: f64 = 1e-6;
 
 /// A furnace with M_e = 1 and ρ = ½ whose floor is two parts with a sliver between them.
 fn furnace_with_sliver() -> Stage {
-    let stage = Stage::new().object("room", 0.5, FRAC_1_PI);
-    let faces = super::stage::room_faces(DVec3::ZERO, DVec3::ONE);
+    let stage = Stage::new().object("room", 0.5, GLOW);
+    let faces = room_faces(DVec3::ZERO, DVec3::ONE);
     let stage = faces[1..].iter().fold(stage, |stage, face| stage.face(face));
     stage
         .level_up([0.0, 0.4], 0.0, [0.0, 1.0])
         .level_up([0.4 + WIDTH, 1.0], 0.0, [0.0, 1.0])
-        .object("sliver", 0.5, FRAC_1_PI)
+        .object("sliver", 0.5, GLOW)
         .level_up([0.4, 0.4 + WIDTH], 0.0, [0.0, 1.0])
 }
 
-fn room() -> Stage {
-    Stage::new().object("room", 0.5, 0.0).room(DVec3::ZERO, DVec3::ONE).object("lamp", 0.5, 1.0).level_down(
-        [0.3, 0.7],
-        0.9,
-        [0.3, 0.7],
-    )
-}
-
 fn bad_room() -> Stage {
-    room().line("v nan 0 0\nv 0 inf 0\nv 1e39 0 0\nv 0.5 0.5 0.5\nf 1 2 -4\nf 1 2 -3\nf 1 2 -2\nf -1 -1 -1\nf 1 2 1 2\nf 1 2 99\nf 1 x 2")
+    lit_cube(0.5).line("v nan 0 0\nv 0 inf 0\nv 1e39 0 0\nv 0.5 0.5 0.5\nf 1 2 -4\nf 1 2 -3\nf 1 2 -2\nf -1 -1 -1\nf 1 2 1 2\nf 1 2 99\nf 1 x 2")
 }
 
 fn sliver(rows: &mut Rows) -> Result<(), Cancelled> {
@@ -72,7 +63,7 @@ fn sliver(rows: &mut Rows) -> Result<(), Cancelled> {
 
 fn bad_faces(rows: &mut Rows) -> Result<(), Cancelled> {
     let guard = "every line of the file is checked, and what cannot be used is left out by name and line";
-    let (good, bad) = (room().open("good"), bad_room().open("bad"));
+    let (good, bad) = (lit_cube(0.5).open("good"), bad_room().open("bad"));
     rows.check("faces that are left", bad.polygons.len() as f64, exactly(7.0), guard);
     // Three vertices that cannot be used, the three faces that use them, two corners that do not exist, two faces without
     // area.

@@ -1,7 +1,7 @@
 //! Long runs, and methods of form factors at the end of their assumptions.
 
 use super::row::{about, exactly};
-use super::stage::{Stage, level, patch_of, single, solve, steps, world};
+use super::stage::{GLOW, cube, level, lit_cube, patch_of, plates, single, solve, steps, world};
 use super::{Case, Rows};
 use crate::cancel::Cancelled;
 use crate::choice::Choice;
@@ -14,14 +14,14 @@ use crate::methods::radiosity::form_factor::hemicube::{Hemicube, Item};
 use crate::methods::radiosity::{Relaxation, System, pick};
 use crate::methods::{FormFactorMethod, Settings, Solver};
 use glam::{DVec3, Vec3A};
-use std::f64::consts::{FRAC_1_PI, PI};
+use std::f64::consts::PI;
 
 pub const CASES: &[Case] = &[
     Case {
         name: "long-run",
         about: "100,000 shots, each of which rounds the books a little",
         measure: long_run,
-        scene: || lit_room(0.999).show("long-run"),
+        scene: || lit_cube(0.999).show("long-run"),
     },
     Case {
         name: "rough-form-factors",
@@ -39,32 +39,12 @@ pub const CASES: &[Case] = &[
         name: "furnace",
         about: "a glowing room, in which every method must keep all of the light",
         measure: furnace,
-        scene: || glowing_room().show("furnace"),
+        scene: || cube(0.5, GLOW).show("furnace"),
     },
 ];
 
-fn lit_room(reflectance: f64) -> Stage {
-    Stage::new().object("room", reflectance, 0.0).room(DVec3::ZERO, DVec3::ONE).object("lamp", 0.5, 1.0).level_down(
-        [0.3, 0.7],
-        0.9,
-        [0.3, 0.7],
-    )
-}
-
-fn glowing_room() -> Stage {
-    Stage::new().object("room", 0.5, FRAC_1_PI).room(DVec3::ZERO, DVec3::ONE)
-}
-
-fn plates(gap: f64) -> Stage {
-    Stage::new().object("floor", 0.0, 1.0).level_up([0.0, 1.0], 0.0, [0.0, 1.0]).object("plate", 0.0, 0.0).level_down(
-        [0.0, 1.0],
-        gap,
-        [0.0, 1.0],
-    )
-}
-
 fn long_run(rows: &mut Rows) -> Result<(), Cancelled> {
-    let world = world(lit_room(0.999).open("room"), single(0.51), rows.cancel)?;
+    let world = world(lit_cube(0.999).open("room"), single(0.51), rows.cancel)?;
     let settings = Settings { solver: Solver::Southwell, unshot_limit: 0.0, ..Settings::default() };
     let solution = steps(&world, &settings, 100_000, rows.cancel)?;
     let guard = "energy in double precision, and what is unshot and absorbed counted anew from the patches";
@@ -170,7 +150,7 @@ fn hemicube(rows: &mut Rows) -> Result<(), Cancelled> {
 }
 
 fn furnace(rows: &mut Rows) -> Result<(), Cancelled> {
-    let world = world(glowing_room().open("furnace"), single(0.26), rows.cancel)?;
+    let world = world(cube(0.5, GLOW).open("furnace"), single(0.26), rows.cancel)?;
     for &form_factor in FormFactorMethod::ALL {
         let settings = Settings {
             form_factor,

@@ -101,6 +101,26 @@ impl Stage {
     }
 }
 
+/// Radiance of what has M_e = 1 W/m².
+pub const GLOW: f64 = std::f64::consts::FRAC_1_PI;
+
+/// A closed room of a cubic metre, its floor first, with this reflectance and emitted radiance, W/(m²·sr).
+pub fn cube(reflectance: f64, radiance: f64) -> Stage {
+    Stage::new().object("room", reflectance, radiance).room(DVec3::ZERO, DVec3::ONE)
+}
+
+/// The same with a lamp under its ceiling.
+pub fn lit_cube(reflectance: f64) -> Stage {
+    cube(reflectance, 0.0).object("lamp", 0.5, 1.0).level_down([0.3, 0.7], 0.9, [0.3, 0.7])
+}
+
+/// A glowing unit square, "floor", that looks up at a black one, "plate".
+pub fn plates(gap: f64) -> Stage {
+    let unit = [0.0, 1.0];
+    let stage = Stage::new().object("floor", 0.0, 1.0).level_up(unit, 0.0, unit);
+    stage.object("plate", 0.0, 0.0).level_down(unit, gap, unit)
+}
+
 /// Corners of a level rectangle, counter-clockwise seen from above.
 pub fn level(x: [f64; 2], y: f64, z: [f64; 2]) -> [DVec3; 4] {
     [(x[0], z[0]), (x[0], z[1]), (x[1], z[1]), (x[1], z[0])].map(|(x, z)| DVec3::new(x, y, z))
