@@ -128,6 +128,25 @@ fn product_quadrature(from: &[DVec3], to: &[DVec3], n: usize) -> f64 {
     sum / area(from)
 }
 
+/// The edges that two polygons get where each is cut at the other's plane lie on one line, but for rounding: here their
+/// directions differ by 1e-14, so that where they meet cannot be told.
+#[test]
+fn edges_on_one_line_but_for_rounding_lose_no_digits() {
+    let from = [
+        DVec3::new(-0.03818429535014167, 0.456298585950905, -0.4827503886901052),
+        DVec3::new(-0.19174586190161802, -0.2995913046184382, -0.5287238158062241),
+        DVec3::new(0.5606341759373479, 0.06134147461392489, -0.5114006868110678),
+    ];
+    let to = [
+        DVec3::new(1.0132651313254781, 0.1724617251796655, -0.7621264518842166),
+        DVec3::new(0.4038490273869088, 0.15651196724261848, -0.7757001943588236),
+        DVec3::new(0.7540322816438436, -0.12888810370123982, -0.5236511788467638),
+        DVec3::new(1.5028853378595701, 0.014997798899122734, -0.6100285480529347),
+    ];
+    let (there, back) = (area_form_factor(&from, &to), area_form_factor(&to, &from));
+    assert!((area(&from) * there - area(&to) * back).abs() < 1e-14, "{there} {back}");
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(96))]
 
