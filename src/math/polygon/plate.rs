@@ -1,5 +1,5 @@
-//! Form factors between many pairs of triangles and quads: each is made ready once, and of each pair as much is computed as
-//! its distance calls for.
+//! Form factors between many pairs of triangles and quads: each is made ready once, and of each pair as much is
+//! computed as its distance calls for.
 
 use super::gauss::{GAUSS_2, GAUSS_3, GAUSS_4};
 use super::{contour, vector_area};
@@ -80,17 +80,18 @@ impl Plate {
 
     /// A F, m²: the area of either plate times its form factor to the other, with nothing between them.
     ///
-    /// The error is at most `tolerance` · A A' / (π r²) for the areas A, A' and the least distance r that plates of their size
-    /// could have; most are far below. Plates that are nearer than a few of their sizes are computed from their contours. Of
-    /// those that touch, what rises above the other's plane by less than this share of its size is no part of it, and
-    /// the error is at most some `tolerance` · A.
+    /// The error is at most `tolerance` · A A' / (π r²) for the areas A, A' and the least distance r that plates of
+    /// their size could have; most are far below. Plates that are nearer than a few of their sizes are computed from
+    /// their contours. Of those that touch, what rises above the other's plane by less than this share of its size is
+    /// no part of it, and the error is at most some `tolerance` · A.
     pub fn exchange(&self, other: &Self, tolerance: f64) -> f64 {
         let in_front = self.shows(other, tolerance).min(other.shows(self, tolerance));
         if in_front == InFront::None {
             return 0.0;
         }
         let least_distance = self.center.distance(other.center) - self.radius - other.radius;
-        // Errors of angles count at most with the distance in lengths of the edges, which is below 10 where there are contours.
+        // Errors of angles count at most with the distance in lengths of the edges, which is below 10 where there are
+        // contours.
         let by_contour = || contour::exchange(self.corners(), other.corners(), tolerance / 64.0);
         if in_front == InFront::Part || least_distance <= 0.0 {
             return by_contour();
@@ -112,7 +113,8 @@ impl Plate {
         &self.corners[..self.corner_count]
     }
 
-    /// How much of the other plate is in front of this one. What is within this share of their radius of its plane is in it.
+    /// How much of the other plate is in front of this one. What is within this share of their radius of its plane is
+    /// in it.
     fn shows(&self, other: &Self, tolerance: f64) -> InFront {
         let height = (other.center - self.center).dot(self.normal);
         if height > other.radius {
@@ -134,7 +136,8 @@ impl Plate {
 }
 
 impl<const N: usize> Points<N> {
-    /// The products of a rule's points on a quad, by its bilinear map; a triangle is a quad whose last corner stands twice.
+    /// The products of a rule's points on a quad, by its bilinear map; a triangle is a quad whose last corner stands
+    /// twice.
     fn new(&[a, b, c, d]: &[DVec3; 4], normal: DVec3, rule: &[(f64, f64)]) -> Self {
         let mut points = Self { x: [0.0; N], y: [0.0; N], z: [0.0; N], weight: [0.0; N] };
         let (along, across, twist) = (b - a, d - a, a - b + c - d);
@@ -157,13 +160,13 @@ impl<const N: usize> Points<N> {
     }
 }
 
-/// How wrong the sums over coarse, medium and fine points are at most, in units of A A' / (π r²), for plates whose larger extent
-/// is `q` times the least distance r.
+/// How wrong the sums over coarse, medium and fine points are at most, in units of A A' / (π r²), for plates whose
+/// larger extent is `q` times the least distance r.
 ///
-/// With n points on [0, 1] the error of an integral is κ f⁽²ⁿ⁾ with κ = 1/270, 1/31500, 1/6945750, times the half length to the
-/// power 2 n. Along a line in one of the plates the kernel is linear over r⁴, whose derivatives are sums of Gegenbauer polynomials;
-/// the numbers are twice their highest values over all angles, times κ. The terms with `skew` come from the density of points,
-/// which is linear along such a line.
+/// With n points on [0, 1] the error of an integral is κ f⁽²ⁿ⁾ with κ = 1/270, 1/31500, 1/6945750, times the half
+/// length to the power 2 n. Along a line in one of the plates the kernel is linear over r⁴, whose derivatives are sums
+/// of Gegenbauer polynomials; the numbers are twice their highest values over all angles, times κ. The terms with
+/// `skew` come from the density of points, which is linear along such a line.
 fn error_bounds(q: f64, skew: f64) -> [f64; 3] {
     let q3 = q * q * q;
     let q5 = q3 * q * q;
@@ -171,8 +174,8 @@ fn error_bounds(q: f64, skew: f64) -> [f64; 3] {
     [q3 * (2.31 * q + 1.54 * skew), q5 * (1.12 * q + 0.84 * skew), q7 * (0.46 * q + 0.37 * skew)]
 }
 
-/// ∫∫ cos θ cos θ' / (π r²) by quadrature. The height of a point of one plate above the plane of the other is r cos θ, wherever
-/// on the other one looks from.
+/// ∫∫ cos θ cos θ' / (π r²) by quadrature. The height of a point of one plate above the plane of the other is r cos θ,
+/// wherever on the other one looks from.
 fn kernel_sum<const N: usize>(one: &Plate, from: &Points<N>, other: &Plate, to: &Points<N>) -> f64 {
     let from_heights = from.weighted_heights(other);
     let to_heights = to.weighted_heights(one);
