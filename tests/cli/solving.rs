@@ -18,11 +18,23 @@ fn the_built_in_scenes_are_listed_with_a_line_each() {
 #[test]
 fn a_solve_reports_these_fields_and_its_ledger_closes() {
     let report = json(&folder(), "solve furnace --json --steps 3");
-    let fields =
-        ["closure", "converged", "counters", "elements", "energy", "method", "patches", "scene", "seconds", "steps"];
+    let fields = [
+        "closure",
+        "converged",
+        "counters",
+        "elements",
+        "energy",
+        "form_factor",
+        "method",
+        "patches",
+        "scene",
+        "seconds",
+        "solver",
+        "steps",
+    ];
     assert_eq!(keys(&report), fields);
     assert_eq!(keys(&report["energy"]), ["absorbed", "defect", "emitted", "escaped", "unshot"]);
-    assert_eq!(keys(&report["closure"]), ["mean", "worst"]);
+    assert_eq!(keys(&report["closure"]), ["mean", "reciprocity", "worst"]);
     assert!(number(&report["counters"]["rays"]) > 0.0);
     assert_eq!((&report["scene"], &report["method"]), (&"furnace".into(), &"radiosity".into()));
     assert_eq!((number(&report["steps"]), &report["converged"]), (3.0, &false.into()));
@@ -36,6 +48,24 @@ fn a_solve_reports_these_fields_and_its_ledger_closes() {
     // Nothing leaves a closed room.
     assert!(energy("absorbed") > 0.0 && energy("unshot") < energy("emitted"));
     assert_eq!(energy("escaped"), 0.0);
+}
+
+#[test]
+fn every_solver_and_method_can_be_asked_for() {
+    let folder = folder();
+    let solve = |options: &str| json(&folder, &format!("solve furnace --element 0.25 --json {options}"));
+    for solver in ["progressive", "jacobi", "gauss-seidel", "southwell"] {
+        for form_factor in ["centroid", "disc", "polygon", "rays", "hemicube"] {
+            let options = format!("--solver {solver} --form-factor {form_factor} --light-rays 100000 --hemicube 32");
+            let report = solve(&options);
+            assert_eq!((&report["solver"], &report["form_factor"]), (&solver.into(), &form_factor.into()));
+            assert_eq!(report["converged"], true, "{options}");
+        }
+    }
+    let steps = |options: &str| number(&solve(options)["steps"]);
+    assert!(steps("--overshoot") < steps(""));
+    // With every element a patch, there are four times as many.
+    assert_eq!(number(&solve("--patch-edge 1 --steps 1")["patches"]), number(&solve("--steps 1")["elements"]));
 }
 
 #[test]
