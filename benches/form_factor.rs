@@ -99,7 +99,8 @@ fn matrix(patches: &[Plate], tolerance: f64) -> Vec<f64> {
     matrix
 }
 
-/// Upright, and turned with corners in single precision, so that nothing is parallel or at a right angle to the last digit.
+/// Upright, and turned with corners in single precision, so that nothing is parallel or at a right angle to the last
+/// digit.
 fn cube_matrix(criterion: &mut Criterion) {
     let turn = DQuat::from_euler(EulerRot::XYZ, 0.3, 0.7, 1.1);
     let upright = cube_patches(|corner| corner);
@@ -124,7 +125,10 @@ fn cube_matrix(criterion: &mut Criterion) {
 
 criterion_group! {
     name = benches;
-    config = Criterion::default().warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(4)).without_plots();
+    config = Criterion::default()
+        .warm_up_time(Duration::from_secs(1))
+        .measurement_time(Duration::from_secs(4))
+        .without_plots();
     targets = cube_matrix, hemicube
 }
 criterion_main!(benches);

@@ -20,18 +20,18 @@ const FLATNESS: f64 = 1e-5;
 const LEAST_WIDTH: f64 = 1e-9;
 
 const NOTES: &str = "\
-The error is the form factor less the reference. Without occluders that is the contour integral of both polygons, good to some
-1e-13; with occluders it is the mean over the points of the first polygon of the closed form of what each sees of the second,
-good to about 1e-6.
+The error is the form factor less the reference. Without occluders that is the contour integral of both polygons,
+good to some 1e-13; with occluders it is the mean over the points of the first polygon of the closed form of what
+each sees of the second, good to about 1e-6.
 
-centroid  cosθ cosθ' A' / (π r²), from centre to centre. Slides may print 2π: with that, a closed room would lose half of its
-          light at every bounce. Above 1 where the polygons are near.
+centroid  cosθ cosθ' A' / (π r²), from centre to centre. Slides may print 2π: with that, a closed room would lose
+          half of its light at every bounce. Above 1 where the polygons are near.
 disc      cosθ cosθ' A' / (π r² + A'). Both see all or nothing, along the line between the centres.
-polygon   Lambert's closed form, integrated over the first polygon; with occluders at three or four points of it, each times the
-          share of visibility rays that arrive.
+polygon   Lambert's closed form, integrated over the first polygon; with occluders at three or four points of it, each
+          times the share of visibility rays that arrive.
 rays      Share of cosine-distributed rays from the first polygon that land on the second.
-hemicube  What the centre of the first polygon sees, through the cells of half a cube. Solvers fall back to the closed form
-          where that is too near.";
+hemicube  What the centre of the first polygon sees, through the cells of half a cube. Solvers fall back to the closed
+          form where that is too near.";
 
 #[derive(clap::Args, Debug)]
 #[command(after_help = NOTES)]
@@ -49,10 +49,12 @@ pub struct Options {
     #[arg(long, default_value = "all", value_parser = methods)]
     method: Methods,
     /// Cells along the edge of the hemicube's top face
-    #[arg(long, value_name = "N", default_value_t = Settings::default().hemicube_resolution, value_parser = values::hemicube_resolution)]
+    #[arg(long, value_name = "N", default_value_t = Settings::default().hemicube_resolution,
+          value_parser = values::hemicube_resolution)]
     resolution: u32,
     /// Rays of the method that counts them
-    #[arg(long, value_name = "N", default_value_t = 65_536, value_parser = clap::value_parser!(u32).range(1..=1_000_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 65_536,
+          value_parser = clap::value_parser!(u32).range(1..=i64::from(Settings::MAX_LIGHT_RAYS)))]
     rays: u32,
     /// Every random number comes from this
     #[arg(long, value_name = "N", default_value_t = 0)]

@@ -44,8 +44,8 @@ fn every_method_tells_its_form_factor_and_its_error() {
     let names: Vec<&str> = methods.iter().map(|(name, ..)| name.as_str()).collect();
     assert_eq!(names, ["centroid", "disc", "polygon", "rays", "hemicube"]);
     let exact = 0.199_824_895_698_387;
-    // Two Gauss points a side are good to a percent here; of n rays the share has a deviation of √(F (1 − F) / n), 0.003, of which
-    // stratification leaves less; cells of the hemicube end at the edge of the square.
+    // Two Gauss points a side are good to a percent here; of n rays the share has a deviation of √(F (1 − F) / n),
+    // 0.003, of which stratification leaves less; cells of the hemicube end at the edge of the square.
     let expected = [
         (std::f64::consts::FRAC_1_PI, 1e-9),
         (0.241_453_007, 1e-9),

@@ -1,11 +1,11 @@
 //! Form factor from polygon to polygon by their contours.
 //!
-//! By Stokes' theorem F = 1 / (2 π A) ∮∮ ln r dx · dx', a sum over all pairs of edges (Sparrow 1963). The integral over one
-//! edge of a pair has a closed form (Mitalas, Stephenson 1966), and here the one over both has too wherever the edges lie in
-//! one plane: if they are parallel, and by Euler's theorem on homogeneous functions if their lines meet. This holds for all
-//! edges that touch, so no integrand is ever singular. What is left are edges that pass each other at a distance. Where their
-//! integrand has its singularities in the complex plane is known, so Gauss-Legendre quadrature on intervals that keep away
-//! from them converges at a known rate.
+//! By Stokes' theorem F = 1 / (2 π A) ∮∮ ln r dx · dx', a sum over all pairs of edges (Sparrow 1963). The integral over
+//! one edge of a pair has a closed form (Mitalas, Stephenson 1966), and here the one over both has too wherever the
+//! edges lie in one plane: if they are parallel, and by Euler's theorem on homogeneous functions if their lines meet.
+//! This holds for all edges that touch, so no integrand is ever singular. What is left are edges that pass each other
+//! at a distance. Where their integrand has its singularities in the complex plane is known, so Gauss-Legendre
+//! quadrature on intervals that keep away from them converges at a known rate.
 
 use super::gauss::GAUSS_8;
 use super::{clip_above, vector_area};
@@ -16,17 +16,17 @@ use std::f64::consts::TAU;
 const MAX_CORNERS: usize = 16;
 /// Rounding of a form factor.
 const ROUNDING: f64 = 1e-14;
-/// Lines that pass each other within this share of the edges' length, times the root of the sine of their angle, meet. That
-/// neglects the area c² / sin of where they are nearer than that gap c, times a logarithm.
+/// Lines that pass each other within this share of the edges' length, times the root of the sine of their angle, meet.
+/// That neglects the area c² / sin of where they are nearer than that gap c, times a logarithm.
 const MEETING: f64 = 1e-7;
 /// Where lines meet, in lengths of the longer edge. The closed form is a difference of terms that grow with the square.
 const FARTHEST_MEETING: f64 = 32.0;
-/// An interval of quadrature is this many times farther from the next singularity than its half length. With n points the
-/// error is in proportion to (3 + √8)^(−2 n), with 8 to 6e-13.
+/// An interval of quadrature is this many times farther from the next singularity than its half length. With n points
+/// the error is in proportion to (3 + √8)^(−2 n), with 8 to 6e-13.
 const SEPARATION: f64 = 3.0;
-/// Form factor from one planar convex polygon to another, F in [0, 1], with nothing between them: the share of the diffuse
-/// flux that leaves the front of `from` and arrives at the front of `to`. Each has three to twelve corners, counter-clockwise
-/// seen from its front.
+/// Form factor from one planar convex polygon to another, F in [0, 1], with nothing between them: the share of the
+/// diffuse flux that leaves the front of `from` and arrives at the front of `to`. Each has three to twelve corners,
+/// counter-clockwise seen from its front.
 ///
 /// The error is about 1e-13 of the larger of 1 and the ratio of their areas; whether they touch or are very near makes
 /// no difference.
@@ -35,8 +35,9 @@ pub fn area_form_factor(from: &[DVec3], to: &[DVec3]) -> f64 {
     if area > 0.0 { (exchange(from, to, ROUNDING) / area).clamp(0.0, 1.0) } else { 0.0 }
 }
 
-/// Area of either polygon times its form factor to the other, m²; it may be negative by rounding. Edges whose directions
-/// differ by less than `angle` (rad) are taken for parallel, and those that are as near to a right angle do not count.
+/// Area of either polygon times its form factor to the other, m²; it may be negative by rounding. Edges whose
+/// directions differ by less than `angle` (rad) are taken for parallel, and those that are as near to a right angle do
+/// not count.
 pub(super) fn exchange(one: &[DVec3], other: &[DVec3], angle: f64) -> f64 {
     // What two polygons see of each other is what each has in front of the other.
     let (origin, one_normal, other_normal) = (one[0], vector_area(one), vector_area(other));
@@ -93,8 +94,8 @@ fn edge_exchange(edge: &Edge, other: &Edge, unit: f64, angle: f64) -> f64 {
         let aligned = if cosine < 0.0 { other.reversed() } else { *other };
         return cosine.signum() * parallel_edges(edge, &aligned, unit);
     }
-    // Places on the two lines where they are nearest, measured from the starts along the directions. The first is known badly
-    // where the lines are almost parallel; the second and the gap are those that belong to it.
+    // Places on the two lines where they are nearest, measured from the starts along the directions. The first is known
+    // badly where the lines are almost parallel; the second and the gap are those that belong to it.
     let way = other.start - edge.start;
     let near = way.cross(other.direction).dot(axis) / (sine * sine);
     let apart = near * edge.direction - way;
@@ -128,11 +129,11 @@ fn parallel_edges(edge: &Edge, other: &Edge, unit: f64) -> f64 {
         + twice_integrated(shift - edge.length)
 }
 
-/// ∫∫ ½ ln(r² / unit) ds dt over two edges on lines that meet at an angle of this cosine and sine. `ends` are the places of an
-/// edge's start and end, measured along it from the meeting point.
+/// ∫∫ ½ ln(r² / unit) ds dt over two edges on lines that meet at an angle of this cosine and sine. `ends` are the
+/// places of an edge's start and end, measured along it from the meeting point.
 ///
-/// Over [0, a] × [0, b] from the meeting point the integral D is homogeneous up to a logarithm: D(k a, k b) = k² (D(a, b) + a b ln k).
-/// The derivative by k is a ∂D/∂a + b ∂D/∂b = 2 D + a b, and ∂D/∂a is an integral along one edge alone.
+/// Over [0, a] × [0, b] from the meeting point the integral D is homogeneous up to a logarithm: D(k a, k b) = k² (D(a,
+/// b) + a b ln k). The derivative by k is a ∂D/∂a + b ∂D/∂b = 2 D + a b, and ∂D/∂a is an integral along one edge alone.
 fn meeting_edges(
     [start, end]: [f64; 2],
     [other_start, other_end]: [f64; 2],
@@ -160,8 +161,8 @@ fn line_integral(low: f64, high: f64, square: f64, unit: f64) -> f64 {
     term(high) - term(low) - (high - low) + distance * angle
 }
 
-/// ∫∫ ½ ln(r² / unit) ds dt over two edges on lines that do not meet. `nearest` is the place on the line of `edge` that is
-/// nearest to the other line, and how far from it in the imaginary direction the two would meet.
+/// ∫∫ ½ ln(r² / unit) ds dt over two edges on lines that do not meet. `nearest` is the place on the line of `edge` that
+/// is nearest to the other line, and how far from it in the imaginary direction the two would meet.
 fn passing_edges(edge: &Edge, other: &Edge, nearest: (f64, f64), unit: f64) -> f64 {
     // Seen from the start of `edge`, and per length along it: the start of `other`.
     let way = other.start - edge.start;

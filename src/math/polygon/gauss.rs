@@ -1,4 +1,4 @@
-//! Gauss-Legendre quadrature on [0, 1]: abscissas and weights. With n points it is exact for polynomials of degree 2 n − 1.
+//! Gauss-Legendre quadrature on [0, 1]: abscissas and weights. The rule of n points is exact up to degree 2 n − 1.
 
 pub const GAUSS_2: [(f64, f64); 2] = [(0.211_324_865_405_187_1, 0.5), (0.788_675_134_594_812_9, 0.5)];
 

@@ -1,5 +1,5 @@
-//! Form factors of shapes for which the books have a formula (Howell, A Catalog of Radiation Heat Transfer Configuration
-//! Factors). They share nothing with the rest, which is tested by them.
+//! Form factors of shapes for which the books have a formula (Howell, A Catalog of Radiation Heat Transfer
+//! Configuration Factors). They share nothing with the rest, which is tested by them.
 
 use std::f64::consts::PI;
 
@@ -13,7 +13,8 @@ pub fn parallel_rectangles(a: f64, b: f64, c: f64) -> f64 {
     2.0 / (PI * x * y) * (logarithm + angles)
 }
 
-/// From a rectangle `width` × `length` to one of `height` × `length` that stands on its edge `length` at a right angle (C-14).
+/// From a rectangle `width` × `length` to one of `height` × `length` that stands on its edge `length` at a right angle
+/// (C-14).
 pub fn perpendicular_rectangles(width: f64, height: f64, length: f64) -> f64 {
     let (w, h) = (width / length, height / length);
     let (w2, h2) = (w * w, h * h);

@@ -1,7 +1,8 @@
 //! Integrals over planar polygons, in double precision: areas and form factors.
 //!
-//! [`form_factor`] is that of a point, [`area_form_factor`] the one between two areas, both in closed form; [`Plate`]s are made
-//! ready for many pairs. What [`visible_form_factor`] counts is in sight. [`known`] has the form factors of a few shapes, to test by.
+//! [`form_factor`] is that of a point, [`area_form_factor`] the one between two areas, both in closed form; [`Plate`]s
+//! are made ready for many pairs. What [`visible_form_factor`] counts is in sight. [`known`] has the form factors of a
+//! few shapes, to test by.
 
 mod contour;
 mod gauss;
@@ -25,8 +26,8 @@ pub fn vector_area(corners: &[DVec3]) -> DVec3 {
     corners.windows(2).map(|pair| (pair[0] - first).cross(pair[1] - first)).sum::<DVec3>() * 0.5
 }
 
-/// Copies the part of a convex polygon on the positive side of the plane through `point` into `clipped`, relative to `point`,
-/// and returns its number of corners (Sutherland, Hodgman 1974; one plane adds at most one corner).
+/// Copies the part of a convex polygon on the positive side of the plane through `point` into `clipped`, relative to
+/// `point`, and returns its number of corners (Sutherland, Hodgman 1974; one plane adds at most one corner).
 fn clip_above(point: DVec3, normal: DVec3, corners: &[DVec3], clipped: &mut [DVec3]) -> usize {
     let mut count = 0;
     let mut from = corners[corners.len() - 1] - point;

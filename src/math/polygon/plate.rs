@@ -1,5 +1,5 @@
-//! Form factors between many pairs of triangles and quads: each is made ready once, and of each pair as much is computed as
-//! its distance calls for.
+//! Form factors between many pairs of triangles and quads: each is made ready once, and of each pair as much is
+//! computed as its distance calls for.
 
 use super::gauss::{GAUSS_2, GAUSS_3, GAUSS_4};
 use super::{contour, vector_area};
@@ -80,34 +80,29 @@ impl Plate {
 
     /// A F, m²: the area of either plate times its form factor to the other, with nothing between them.
     ///
-    /// The error is at most `tolerance` · A A' / (π r²) for the areas A, A' and the least distance r that plates of their size
-    /// could have; most are far below. Plates that are nearer than a few of their sizes are computed from their contours. Of
-    /// those that touch, what rises above the other's plane by less than this share of its size is no part of it, and
-    /// the error is at most some `tolerance` · A.
+    /// The error is at most `tolerance` · A A' / (π r²) for the areas A, A' and the least distance r that plates of
+    /// their size could have; most are far below. Plates that are nearer than a few of their sizes are computed from
+    /// their contours. Of those that touch, what rises above the other's plane by less than this share of its size is
+    /// no part of it, and the error is at most some `tolerance` · A.
     pub fn exchange(&self, other: &Self, tolerance: f64) -> f64 {
         let in_front = self.shows(other, tolerance).min(other.shows(self, tolerance));
         if in_front == InFront::None {
             return 0.0;
         }
         let least_distance = self.center.distance(other.center) - self.radius - other.radius;
-        // Errors of angles count at most with the distance in lengths of the edges, which is below 10 where there are contours.
+        // Errors of angles count at most with the distance in lengths of the edges, which is below 10 where there are
+        // contours.
         let by_contour = || contour::exchange(self.corners(), other.corners(), tolerance / 64.0);
         if in_front == InFront::Part || least_distance <= 0.0 {
             return by_contour();
         }
-        let skew = self.skew.max(other.skew);
-        let q = self.extent.max(other.extent) / least_distance;
-        let q2 = q * q;
-        let q3 = q2 * q;
-        // With n points on [0, 1] the error of an integral is κ f⁽²ⁿ⁾ with κ = 1/270, 1/31500, 1/6945750 times the half length
-        // to the power 2 n. Along a line in one of the plates the kernel is a quadratic over r⁴, whose derivatives are sums of
-        // Gegenbauer polynomials; the numbers are twice their highest values over all angles, times κ. The terms with
-        // `skew` come from the density of points, which is linear along such a line.
-        if q3 * (2.31 * q + 1.54 * skew) <= tolerance {
+        let relative_extent = self.extent.max(other.extent) / least_distance;
+        let [coarse, medium, fine] = error_bounds(relative_extent, self.skew.max(other.skew));
+        if coarse <= tolerance {
             kernel_sum(self, &self.coarse, other, &other.coarse)
-        } else if q3 * q2 * (1.12 * q + 0.84 * skew) <= tolerance {
+        } else if medium <= tolerance {
             kernel_sum(self, &self.medium, other, &other.medium)
-        } else if q3 * q2 * q2 * (0.46 * q + 0.37 * skew) <= tolerance {
+        } else if fine <= tolerance {
             kernel_sum(self, &self.fine, other, &other.fine)
         } else {
             by_contour()
@@ -118,7 +113,8 @@ impl Plate {
         &self.corners[..self.corner_count]
     }
 
-    /// How much of the other plate is in front of this one. What is within this share of their radius of its plane is in it.
+    /// How much of the other plate is in front of this one. What is within this share of their radius of its plane is
+    /// in it.
     fn shows(&self, other: &Self, tolerance: f64) -> InFront {
         let height = (other.center - self.center).dot(self.normal);
         if height > other.radius {
@@ -140,7 +136,8 @@ impl Plate {
 }
 
 impl<const N: usize> Points<N> {
-    /// The products of a rule's points on a quad, by its bilinear map; a triangle is a quad whose last corner stands twice.
+    /// The products of a rule's points on a quad, by its bilinear map; a triangle is a quad whose last corner stands
+    /// twice.
     fn new(&[a, b, c, d]: &[DVec3; 4], normal: DVec3, rule: &[(f64, f64)]) -> Self {
         let mut points = Self { x: [0.0; N], y: [0.0; N], z: [0.0; N], weight: [0.0; N] };
         let (along, across, twist) = (b - a, d - a, a - b + c - d);
@@ -163,8 +160,22 @@ impl<const N: usize> Points<N> {
     }
 }
 
-/// ∫∫ cos θ cos θ' / (π r²) by quadrature. The height of a point of one plate above the plane of the other is r cos θ, wherever
-/// on the other one looks from.
+/// How wrong the sums over coarse, medium and fine points are at most, in units of A A' / (π r²), for plates whose
+/// larger extent is `q` times the least distance r.
+///
+/// With n points on [0, 1] the error of an integral is κ f⁽²ⁿ⁾ with κ = 1/270, 1/31500, 1/6945750, times the half
+/// length to the power 2 n. Along a line in one of the plates the kernel is linear over r⁴, whose derivatives are sums
+/// of Gegenbauer polynomials; the numbers are twice their highest values over all angles, times κ. The terms with
+/// `skew` come from the density of points, which is linear along such a line.
+fn error_bounds(q: f64, skew: f64) -> [f64; 3] {
+    let q3 = q * q * q;
+    let q5 = q3 * q * q;
+    let q7 = q5 * q * q;
+    [q3 * (2.31 * q + 1.54 * skew), q5 * (1.12 * q + 0.84 * skew), q7 * (0.46 * q + 0.37 * skew)]
+}
+
+/// ∫∫ cos θ cos θ' / (π r²) by quadrature. The height of a point of one plate above the plane of the other is r cos θ,
+/// wherever on the other one looks from.
 fn kernel_sum<const N: usize>(one: &Plate, from: &Points<N>, other: &Plate, to: &Points<N>) -> f64 {
     let from_heights = from.weighted_heights(other);
     let to_heights = to.weighted_heights(one);
@@ -236,6 +247,34 @@ mod tests {
             }
         }
         assert!(by_contour < 40_000, "{by_contour}");
+    }
+
+    #[test]
+    fn error_bounds_hold_and_are_not_empty() {
+        let mut stream = Stream::new(4, 0, 0);
+        let mut worst = [[0.0f64; 3]; 2];
+        for round in 0..200_000 {
+            let shapes = round % 2;
+            let one = plate(&mut stream, 1 - shapes, 4.0);
+            let other = plate(&mut stream, 1, 6.0);
+            let least = one.center.distance(other.center) - one.radius - other.radius;
+            if least < one.extent || one.shows(&other, 0.0).min(other.shows(&one, 0.0)) != InFront::All {
+                continue;
+            }
+            let exact = contour::exchange(one.corners(), other.corners(), 1e-14);
+            let unit = one.area * other.area / (PI * least * least);
+            let bounds = error_bounds(one.extent.max(other.extent) / least, one.skew.max(other.skew));
+            let sums = [
+                kernel_sum(&one, &one.coarse, &other, &other.coarse),
+                kernel_sum(&one, &one.medium, &other, &other.medium),
+                kernel_sum(&one, &one.fine, &other, &other.fine),
+            ];
+            for (worst, (sum, bound)) in worst[shapes as usize].iter_mut().zip(sums.iter().zip(bounds)) {
+                *worst = worst.max((sum - exact).abs() / (bound * unit));
+            }
+        }
+        // The highest values over all angles do not meet in one pair, so the worst of them stays far below the bound.
+        assert!(worst.iter().flatten().all(|share| (1e-4..1.0).contains(share)), "{worst:?}");
     }
 
     #[test]

@@ -36,11 +36,11 @@ pub(super) fn contour_sum(normal: DVec3, corners: &[DVec3]) -> f64 {
     -sum / TAU
 }
 
-/// θ / s for the angle θ in [0, π] with the sine s and a cosine, both times the same positive number. An edge that points
-/// at the receiver spans no angle and counts 0.
+/// θ / s for the angle θ in [0, π] with the sine s and a cosine, both times the same positive number. An edge that
+/// points at the receiver spans no angle and counts 0.
 ///
-/// Most receivers see an edge under a small angle, for which nine terms of the series of the arc tangent need no root and
-/// are as good: the first that is left out is below 0.25^18 / 19 = 8e-13 of the sum.
+/// Most receivers see an edge under a small angle, for which nine terms of the series of the arc tangent need no root
+/// and are as good: the first that is left out is below 0.25^18 / 19 = 8e-13 of the sum.
 fn angle_over_sine(squared_sine: f64, cosine: f64) -> f64 {
     if cosine > 0.0 && squared_sine < cosine * cosine / 16.0 {
         let inverse = 1.0 / cosine;

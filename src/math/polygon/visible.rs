@@ -29,8 +29,8 @@ pub fn visible_form_factor(point: DVec3, normal: DVec3, corners: &[DVec3], occlu
     parts.map(|part| point::contour_sum(normal, part)).sum::<f64>().clamp(0.0, 1.0)
 }
 
-/// Form factor from a triangle or convex quad to what is seen of a convex polygon from each of its points. The integral over
-/// the points is refined where that changes it, until it should be off by less than `tolerance`.
+/// Form factor from a triangle or convex quad to what is seen of a convex polygon from each of its points. The integral
+/// over the points is refined where that changes it, until it should be off by less than `tolerance`.
 pub fn occluded_area_form_factor(from: &[DVec3], to: &[DVec3], occluders: &[Vec<DVec3>], tolerance: f64) -> f64 {
     let [a, b, c, d] = [from[0], from[1], from[2], from[from.len() - 1]];
     let (along, across, twist) = (b - a, d - a, a - b + c - d);
@@ -76,7 +76,8 @@ fn refine(f: &impl Fn(f64, f64) -> f64, cell: Cell, coarse: f64, tolerance: f64,
     if depth == MAX_DEPTH || (depth >= MIN_DEPTH && (fine - coarse).abs() <= tolerance) {
         return fine;
     }
-    // Errors of cells at the edge of a shadow are of either sign: half of the tolerance for a quarter of the area is enough.
+    // Errors of cells at the edge of a shadow are of either sign: half of the tolerance for a quarter of the area is
+    // enough.
     quarters.iter().map(|&(quarter, integral)| refine(f, quarter, integral, 0.5 * tolerance, depth + 1)).sum()
 }
 
@@ -91,8 +92,8 @@ fn cut(corners: &[DVec3], point: DVec3, normal: DVec3) -> Vec<DVec3> {
     clipped
 }
 
-/// Normals of the planes through the eye at the origin and each edge of a polygon, towards its inside; `None` if it is seen
-/// edge-on or has no area.
+/// Normals of the planes through the eye at the origin and each edge of a polygon, towards its inside; `None` if it is
+/// seen edge-on or has no area.
 fn shadow(corners: &[DVec3]) -> Option<Vec<DVec3>> {
     if corners.len() < 3 {
         return None;
@@ -179,8 +180,9 @@ mod tests {
 
     #[test]
     fn a_screen_with_a_hole_passes_what_goes_through_the_hole() {
-        // Four strips round a square hole between two squares: all that arrives has come through the hole. Seen from the
-        // floor the hole is a polygon, and seen from the light as well, so no light that passes it is counted twice.
+        // Four strips round a square hole between two squares: all that arrives has come through the hole. Seen from
+        // the floor the hole is a polygon, and seen from the light as well, so no light that passes it is counted
+        // twice.
         let (floor, light) = (square(0.5, 0.0).into_iter().rev().collect::<Vec<_>>(), square(5.0, 1.0));
         let strip = |low: [f64; 2], high: [f64; 2]| -> Vec<DVec3> {
             [(low[0], low[1]), (high[0], low[1]), (high[0], high[1]), (low[0], high[1])]
@@ -194,7 +196,8 @@ mod tests {
             strip([-0.1, -far], [0.1, -0.1]),
             strip([-0.1, 0.1], [0.1, far]),
         ];
-        // All lines from the floor through the hole end on the light: at height 1 they are within 0.5 + 5 · 0.6 of the axis.
+        // All lines from the floor through the hole end on the light: at height 1 they are within 0.5 + 5 · 0.6 of the
+        // axis.
         let got = occluded_area_form_factor(&floor, &light, &screen, 1e-6);
         let through = area_form_factor(&floor, &square(0.1, 0.2));
         assert!((got - through).abs() < 1e-5, "{got} for {through}");

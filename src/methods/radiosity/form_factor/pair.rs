@@ -96,8 +96,8 @@ impl Pair {
         Self { from: Side::new(from), to: Side::new(to), occluders, tracer: Tracer::new(&triangles), items }
     }
 
-    /// F without the error of any method: by contours, or with occluders the mean over the points of the first polygon of the
-    /// closed form of what each sees, refined to about 1e-6.
+    /// F without the error of any method: by contours, or with occluders the mean over the points of the first polygon
+    /// of the closed form of what each sees, refined to about 1e-6.
     pub fn reference(&self) -> f64 {
         if self.occluders.is_empty() {
             area_form_factor(&self.from.corners, &self.to.corners)
@@ -124,8 +124,8 @@ impl Pair {
         f64::from(u8::from(self.occluders.is_empty() || self.tracer.is_visible(from, to)))
     }
 
-    /// The closed form, integrated over the first polygon; with occluders its mean over Gauss points, each times the share of
-    /// its visibility rays that arrive.
+    /// The closed form, integrated over the first polygon; with occluders its mean over Gauss points, each times the
+    /// share of its visibility rays that arrive.
     fn by_polygon(&self, effort: &Effort) -> f64 {
         if self.occluders.is_empty() {
             let from = Plate::new(&self.from.corners);

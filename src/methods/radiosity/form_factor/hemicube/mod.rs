@@ -1,8 +1,9 @@
 //! The hemicube (Cohen, Greenberg 1985): what is seen from a point, drawn onto half a cube, cell by cell.
 //!
-//! The sum of the delta form factors of the cells in which an item is seen is the form factor from the point to that item,
-//! with all that stands between. Its three assumptions are named by Baum, Rushmeier, Winget (1989): the point stands for its
-//! whole patch (proximity), so does its view (visibility), and what is smaller than a cell is hit or missed (aliasing).
+//! The sum of the delta form factors of the cells in which an item is seen is the form factor from the point to that
+//! item, with all that stands between. Its three assumptions are named by Baum, Rushmeier, Winget (1989): the point
+//! stands for its whole patch (proximity), so does its view (visibility), and what is smaller than a cell is hit or
+//! missed (aliasing).
 
 mod scan;
 
@@ -22,15 +23,15 @@ pub struct Item {
 }
 
 impl Item {
-    /// Three or four corners, counter-clockwise seen from the front. Any number of items may have the same `id`; that of
-    /// [`ItemBuffer::NOTHING`] only hides what is behind it.
+    /// Three or four corners, counter-clockwise seen from the front. Any number of items may have the same `id`; that
+    /// of [`ItemBuffer::NOTHING`] only hides what is behind it.
     pub fn new(corners: &[Vec3], id: u32) -> Self {
         Self { corners: [corners[0], corners[1], corners[2], corners[corners.len() - 1]], id }
     }
 }
 
-/// Half a cube of half side 1 round a point, and what is seen through each of its cells. Made once and drawn often: nothing
-/// is allocated after the first time.
+/// Half a cube of half side 1 round a point, and what is seen through each of its cells. Made once and drawn often:
+/// nothing is allocated after the first time.
 pub struct Hemicube {
     /// Cells along the edge of the top.
     resolution: usize,
@@ -61,10 +62,10 @@ impl Hemicube {
 
     /// Draws what is seen from `center` on the side of the unit `normal`, in place of what was drawn before.
     ///
-    /// `center` should be lifted off its own surface by more than the rounding of its coordinates: then neither that surface
-    /// nor others in its plane are above the foot of the hemicube. An item that is seen from behind leaves its cells
-    /// without an id and hides what is behind it. An item with two sides is two items, one of each winding; of the two
-    /// the one that faces the centre is seen.
+    /// `center` should be lifted off its own surface by more than the rounding of its coordinates: then neither that
+    /// surface nor others in its plane are above the foot of the hemicube. An item that is seen from behind leaves its
+    /// cells without an id and hides what is behind it. An item with two sides is two items, one of each winding; of
+    /// the two the one that faces the centre is seen.
     ///
     /// The result is the same on any number of threads.
     pub fn draw(&mut self, center: Vec3A, normal: Vec3A, items: &[Item]) {
@@ -77,8 +78,8 @@ impl Hemicube {
         bands(self.resolution, &mut self.faces).into_par_iter().for_each(|mut band| band.draw(&self.seen));
     }
 
-    /// Adds the form factor of each item to `sums`, at the item's id, and returns the share in which nothing is seen. All of
-    /// it together is 1.
+    /// Adds the form factor of each item to `sums`, at the item's id, and returns the share in which nothing is seen.
+    /// All of it together is 1.
     pub fn add_form_factors(&self, sums: &mut [f64]) -> f64 {
         let mut empty = 0.0;
         for (face, items) in self.faces.iter().enumerate() {
@@ -100,8 +101,8 @@ impl Hemicube {
     }
 }
 
-/// The delta form factors of the top, dA / (π (x² + y² + 1)²), and of a side, z dA / (π (y² + z² + 1)²), at the middles of their
-/// cells. All five faces sum to 1 + 0.542 / resolution².
+/// The delta form factors of the top, dA / (π (x² + y² + 1)²), and of a side, z dA / (π (y² + z² + 1)²), at the middles
+/// of their cells. All five faces sum to 1 + 0.542 / resolution².
 fn midpoint_deltas(resolution: usize) -> [Vec<f64>; 2] {
     let size = 2.0 / resolution as f64;
     let middle = |cell: usize| (cell as f64 + 0.5) * size;

@@ -1,12 +1,12 @@
 //! Scan conversion of polygons onto the faces of a hemicube, with a depth test.
 //!
-//! In homogeneous coordinates (Olano, Greer 1997) a polygon is the cone of directions in which it is seen, and each of its
-//! edges is the plane through the eye and that edge: a linear function of the direction, and so is one over the
-//! depth. A cell belongs to a polygon if its middle is inside of all edges. Nothing has to be clipped: what reaches below the
-//! horizon or behind the eye is outside of the cone. Clipping only narrows down which cells to look at.
+//! In homogeneous coordinates (Olano, Greer 1997) a polygon is the cone of directions in which it is seen, and each of
+//! its edges is the plane through the eye and that edge: a linear function of the direction, and so is one over the
+//! depth. A cell belongs to a polygon if its middle is inside of all edges. Nothing has to be clipped: what reaches
+//! below the horizon or behind the eye is outside of the cone. Clipping only narrows down which cells to look at.
 //!
-//! Polygons with a common edge compute the same function for it but for its sign, and zero is inside of both: there is no gap
-//! between them. A middle that both cover takes the nearer, of equals the first; no cell counts twice.
+//! Polygons with a common edge compute the same function for it but for its sign, and zero is inside of both: there is
+//! no gap between them. A middle that both cover takes the nearer, of equals the first; no cell counts twice.
 
 use crate::solution::ItemBuffer;
 use glam::DVec3;
@@ -149,8 +149,8 @@ fn turn(face: u32, v: DVec3) -> DVec3 {
     }
 }
 
-/// The part of a convex polygon on the positive side of a plane through the eye (Sutherland, Hodgman 1974); each of four
-/// planes adds at most one corner to four.
+/// The part of a convex polygon on the positive side of a plane through the eye (Sutherland, Hodgman 1974); each of
+/// four planes adds at most one corner to four.
 fn clip(corners: &[DVec3], plane: DVec3) -> ([DVec3; 8], usize) {
     let (mut clipped, mut count) = ([DVec3::ZERO; 8], 0);
     let Some(&last) = corners.last() else { return (clipped, 0) };
