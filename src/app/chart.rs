@@ -167,10 +167,7 @@ mod tests {
         assert_eq!(descriptions(&curves([progressive])), ["Progressive"]);
         assert_eq!(descriptions(&curves([progressive, jacobi])), ["Progressive", "Jacobi"]);
         let hemicube = Settings { form_factor: FormFactorMethod::Hemicube, ..jacobi };
-        assert_eq!(
-            descriptions(&curves([jacobi, hemicube])),
-            ["Jacobi, polygon, 64 shadow rays", "Jacobi, hemicube, 256 cells"]
-        );
+        assert_eq!(descriptions(&curves([jacobi, hemicube])), ["Jacobi, polygon", "Jacobi, hemicube, 256 cells"]);
         let fine = Settings { mesh: MeshSettings { element_size: Some(0.5), ..progressive.mesh }, ..progressive };
         let ahead = Settings { overshoot: true, ..fine };
         assert_eq!(

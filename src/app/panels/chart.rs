@@ -8,7 +8,7 @@ use crate::app::model::Model;
 use crate::app::theme::{Palette, UNIT};
 use crate::choice::Choice;
 use crate::worker::Curve;
-use egui::{Color32, RichText, ScrollArea, Ui, vec2};
+use egui::{Color32, Label, RichText, ScrollArea, Ui, vec2};
 use egui_plot::{
     GridInput, GridMark, HLine, HoverPosition, Line, LineStyle, Plot, PlotPoint, PlotPoints, uniform_grid_spacer,
 };
@@ -121,7 +121,9 @@ fn legend(ui: &mut Ui, model: &Model, descriptions: &[String]) {
         for (curve, description) in model.curves.iter().zip(descriptions).rev() {
             ui.horizontal_top(|ui| {
                 chip(ui, color(palette, curve));
-                ui.label(RichText::new(name(curve, description)).small());
+                let name = name(curve, description);
+                // What does not fit is told by the hover.
+                ui.add(Label::new(RichText::new(&name).small()).truncate()).on_hover_text(name);
             });
         }
         if model.chart.rest == Rest::Unshot && !model.curves.is_empty() {

@@ -15,6 +15,8 @@ use std::sync::Arc;
 /// Symmetric scaling ends when no row is further from closing than this, or after [`MAX_SWEEPS`]; what is left is up to
 /// [`Matrix::closing`].
 const CLOSED: f64 = 1e-10;
+/// Factors keep within this, since those of sums that contradict each other would run away.
+const MAX_SCALE: f64 = 64.0;
 /// Some tens are enough, but for patches that see little but each other.
 const MAX_SWEEPS: u32 = 200;
 
@@ -201,7 +203,6 @@ fn closure(mesh: &Mesh, raw: &Sparse, transposed: &Sparse, escaping: &[f64]) -> 
 /// be while the others stay. That descends to the minimum of ½ dᵀ M d − Σ w log d, which is where all rows sum to w.
 fn close(matrix: &mut Sparse, wanted: &[f64], area: &[f64], cancel: &Cancel) -> Result<(), Cancelled> {
     let mut scale = vec![1.0; matrix.rows()];
-    let mut before = f64::INFINITY;
     for _ in 0..MAX_SWEEPS {
         unless(cancel)?;
         let mut worst = 0.0_f64;
@@ -210,14 +211,12 @@ fn close(matrix: &mut Sparse, wanted: &[f64], area: &[f64], cancel: &Cancel) -> 
             let sum: f64 = columns.iter().zip(values).map(|(&j, value)| scale[j as usize] * value).sum();
             if sum > 0.0 && wanted[i] > 0.0 {
                 worst = worst.max((scale[i] * sum / wanted[i] - 1.0).abs());
-                scale[i] = wanted[i] / sum;
+                scale[i] = (wanted[i] / sum).clamp(1.0 / MAX_SCALE, MAX_SCALE);
             }
         }
-        // Sums that contradict each other come no nearer, and factors would run away.
-        if worst < CLOSED || worst >= before {
+        if worst < CLOSED {
             break;
         }
-        before = worst;
     }
     for i in 0..matrix.rows() {
         let here = scale[i];
