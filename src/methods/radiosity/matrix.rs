@@ -16,7 +16,7 @@ use std::sync::Arc;
 /// [`Matrix::closing`].
 const CLOSED: f64 = 1e-10;
 /// Factors keep within this, since those of sums that contradict each other would run away.
-const MAX_SCALE: f64 = 64.0;
+const MAX_SCALE: f64 = 1e6;
 /// Some tens are enough, but for patches that see little but each other.
 const MAX_SWEEPS: u32 = 200;
 
