@@ -19,14 +19,14 @@ impl Chart {
     /// lent more light than there was left.
     pub fn point(&self, point: &CurvePoint) -> Option<[f64; 2]> {
         let work = match self.work {
-            Work::Steps => point.steps as f64,
-            Work::Updates => point.updates as f64,
-            Work::Rays => point.rays as f64,
+            Work::Steps => point.progress.steps as f64,
+            Work::Updates => point.progress.updates as f64,
+            Work::Rays => point.progress.rays as f64,
             Work::Seconds => point.seconds,
         };
         let rest = match self.rest {
-            Rest::Unshot => point.unshot,
-            Rest::Missing => point.missing,
+            Rest::Unshot => point.progress.unshot_share,
+            Rest::Missing => point.progress.missing_share,
         };
         (rest > 0.0).then(|| [work, rest.log10()])
     }
@@ -154,6 +154,7 @@ fn facts(settings: &Settings) -> [Option<String>; 8] {
 mod tests {
     use super::*;
     use crate::mesh::MeshSettings;
+    use crate::solution::Progress;
 
     fn curves(settings: impl IntoIterator<Item = Settings>) -> Vec<Arc<Curve>> {
         let curve = |(i, settings)| Arc::new(Curve { number: i as u32 + 1, settings, points: Vec::new() });
@@ -178,7 +179,8 @@ mod tests {
 
     #[test]
     fn what_has_no_logarithm_is_left_out() {
-        let point = |unshot| CurvePoint { steps: 7, updates: 70, rays: 700, seconds: 0.5, unshot, missing: 0.1 };
+        let progress = Progress { steps: 7, updates: 70, rays: 700, unshot_share: 0.0, missing_share: 0.1 };
+        let point = |unshot_share| CurvePoint { progress: Progress { unshot_share, ..progress }, seconds: 0.5 };
         let chart = Chart::default();
         assert_eq!(chart.point(&point(0.01)), Some([7.0, -2.0]));
         assert_eq!(chart.point(&point(0.0)), None);

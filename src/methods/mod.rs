@@ -6,7 +6,7 @@ mod settings;
 pub use settings::{FormFactorMethod, Settings, Solver};
 
 use crate::cancel::Cancel;
-use crate::solution::Solution;
+use crate::solution::{Progress, Solution};
 
 /// What one step did.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,6 +33,11 @@ pub trait Method: Send {
     /// nothing, or of no use for them.
     fn restart(&mut self, _settings: &Settings) -> bool {
         false
+    }
+
+    /// How far it has come: cheap enough to be asked after every step.
+    fn progress(&self) -> Progress {
+        self.solution().progress()
     }
 
     /// Copies out what is known so far. Its `elapsed` is zero: whoever steps the method holds the clock.

@@ -46,12 +46,37 @@ impl Solution {
     /// Later bounces are not kept.
     pub const MAX_BOUNCES: usize = 32;
 
-    /// Share of the light on surfaces that is still missing if the rest spreads evenly, in [0, 1].
-    pub fn missing_share(&self) -> f64 {
-        let missing = total(self.ambient.as_dvec3());
-        let arrived = self.mean_irradiance;
-        if missing > 0.0 { missing / (missing + arrived) } else { 0.0 }
+    /// The figures of it.
+    pub fn progress(&self) -> Progress {
+        Progress {
+            steps: self.steps,
+            updates: self.counters.updates,
+            rays: self.counters.rays,
+            unshot_share: self.unshot_share,
+            missing_share: missing_share(self.ambient.as_dvec3(), self.mean_irradiance),
+        }
     }
+}
+
+/// How far a run has come, in a few figures.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Progress {
+    /// Shots or sweeps.
+    pub steps: u64,
+    /// Patches that shot or gathered: a sweep is as many as there are patches.
+    pub updates: u64,
+    pub rays: u64,
+    /// See [`Solution::unshot_share`].
+    pub unshot_share: f64,
+    /// Share of the light on surfaces that is expected to be still missing, in [0, 1].
+    pub missing_share: f64,
+}
+
+/// Share of the light on surfaces that is still missing if what is unshot brings the irradiance `ambient` to all of them,
+/// whose mean irradiance is `arrived` (W/m² summed over RGB) so far.
+pub fn missing_share(ambient: Rgb64, arrived: f64) -> f64 {
+    let missing = total(ambient);
+    if missing > 0.0 { missing / (missing + arrived) } else { 0.0 }
 }
 
 /// Light on every element of the mesh, in the order of its elements.

@@ -1,8 +1,9 @@
 //! How every run on a scene converged, kept for comparison.
 
 use crate::methods::Settings;
-use crate::solution::Solution;
+use crate::solution::Progress;
 use std::sync::Arc;
+use std::time::Duration;
 
 /// At most this many points are kept of a run; more are thinned out evenly.
 const MAX_POINTS: usize = 1024;
@@ -20,29 +21,8 @@ pub struct Curve {
 /// Where a run stood at one moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CurvePoint {
-    /// Shots or sweeps.
-    pub steps: u64,
-    /// Patches that shot or gathered: a sweep is as many as there are patches.
-    pub updates: u64,
-    pub rays: u64,
+    pub progress: Progress,
     pub seconds: f64,
-    /// Unshot share of the emitted flux.
-    pub unshot: f64,
-    /// Share of the light on surfaces that is expected to be still missing.
-    pub missing: f64,
-}
-
-impl CurvePoint {
-    fn of(solution: &Solution) -> Self {
-        Self {
-            steps: solution.steps,
-            updates: solution.counters.updates,
-            rays: solution.counters.rays,
-            seconds: solution.elapsed.as_secs_f64(),
-            unshot: solution.unshot_share,
-            missing: solution.missing_share(),
-        }
-    }
 }
 
 /// The curves of all runs on one scene, the one under way last.
@@ -69,12 +49,12 @@ impl History {
     }
 
     /// Adds a point to the curve under way.
-    pub fn record(&mut self, solution: &Solution) {
+    pub fn record(&mut self, progress: Progress, elapsed: Duration) {
         let Some(curve) = self.curves.last_mut().map(Arc::make_mut) else { return };
-        let point = CurvePoint::of(solution);
+        let point = CurvePoint { progress, seconds: elapsed.as_secs_f64() };
         match curve.points.last_mut() {
             // Preparation costs time and rays, but moves no light.
-            Some(last) if last.steps == point.steps => *last = point,
+            Some(last) if last.progress.steps == point.progress.steps => *last = point,
             _ => curve.points.push(point),
         }
         if curve.points.len() > MAX_POINTS {
@@ -100,8 +80,8 @@ impl History {
 mod tests {
     use super::*;
 
-    fn solution(steps: u64) -> Solution {
-        Solution { steps, ..Solution::default() }
+    fn record(history: &mut History, steps: u64) {
+        history.record(Progress { steps, ..Progress::default() }, Duration::from_millis(steps));
     }
 
     #[test]
@@ -109,23 +89,23 @@ mod tests {
         let mut history = History::default();
         history.begin(&Settings::default());
         for steps in 0..10_000 {
-            history.record(&solution(steps));
+            record(&mut history, steps);
         }
         let points = &history.curves()[0].points;
         assert!(points.len() <= MAX_POINTS && points.len() >= MAX_POINTS / 2);
-        assert_eq!((points[0].steps, points[points.len() - 1].steps), (0, 9_999));
-        assert!(points.windows(2).all(|pair| pair[0].steps < pair[1].steps));
+        assert_eq!((points[0].progress.steps, points[points.len() - 1].progress.steps), (0, 9_999));
+        assert!(points.windows(2).all(|pair| pair[0].progress.steps < pair[1].progress.steps));
     }
 
     #[test]
     fn runs_are_numbered_and_those_that_never_moved_leave_nothing() {
         let mut history = History::default();
         history.begin(&Settings::default());
-        history.record(&solution(0));
-        history.record(&solution(0));
+        record(&mut history, 0);
+        record(&mut history, 0);
         history.begin(&Settings::default());
-        history.record(&solution(0));
-        history.record(&solution(1));
+        record(&mut history, 0);
+        record(&mut history, 1);
         history.begin(&Settings::default());
         let numbers: Vec<u32> = history.curves().iter().map(|curve| curve.number).collect();
         assert_eq!(numbers, [1, 2]);

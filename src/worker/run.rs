@@ -3,7 +3,7 @@
 use crate::cancel::Cancel;
 use crate::methods::radiosity::{self, FullMatrix};
 use crate::methods::{Method, Settings, Step};
-use crate::solution::Solution;
+use crate::solution::{Progress, Solution};
 use crate::world::World;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -60,6 +60,11 @@ impl Run {
 
     pub fn elapsed(&self) -> Duration {
         self.elapsed
+    }
+
+    /// How far the method has come.
+    pub fn progress(&self) -> Progress {
+        self.method.progress()
     }
 
     /// What the method knows, with the time that it took.

@@ -244,7 +244,7 @@ impl Solver {
     }
 
     fn record(&mut self, solution: Solution) {
-        self.history.record(&solution);
+        self.history.record(solution.progress(), solution.elapsed);
         self.snapshot.curves = self.history.curves().to_vec();
         self.snapshot.solution = Some(Arc::new(solution));
     }
@@ -270,6 +270,9 @@ impl Solver {
     fn step(&mut self) {
         let Some(run) = &mut self.run else { return };
         let step = run.step(self.mailbox.step_cancel());
+        if step == Step::Advanced {
+            self.history.record(run.progress(), run.elapsed());
+        }
         match step {
             Step::Cancelled => return,
             Step::Prepared => {}

@@ -13,7 +13,7 @@ use lightwell::hard_cases::{Row, Verdict, cases};
 use lightwell::math::rgb::{Rgb, Rgb64};
 use lightwell::methods::{FormFactorMethod, Settings, Solver};
 use lightwell::scene::{Finding, FindingKind, Severity};
-use lightwell::solution::{Closure, Counters, Energy, Solution};
+use lightwell::solution::{Closure, Counters, Energy, Progress, Solution};
 use lightwell::viewport::diagram::Swatch;
 use lightwell::viewport::{Legend, View};
 use lightwell::worker::{CheckReport, Curve, CurvePoint, Phase};
@@ -221,12 +221,14 @@ pub fn curves() -> Vec<Arc<Curve>> {
     let solvers = [Solver::Progressive, Solver::Jacobi, Solver::GaussSeidel];
     let curve = |(i, solver): (u32, Solver)| {
         let point = |k: u64| CurvePoint {
-            steps: k * 10_u64.pow(2 - i),
-            updates: 500 * k,
-            rays: 1_000_000 * k,
+            progress: Progress {
+                steps: k * 10_u64.pow(2 - i),
+                updates: 500 * k,
+                rays: 1_000_000 * k,
+                unshot_share: 0.5_f64.powi(k as i32),
+                missing_share: 0.4_f64.powi(k as i32),
+            },
             seconds: 0.1 * k as f64,
-            unshot: 0.5_f64.powi(k as i32),
-            missing: 0.4_f64.powi(k as i32),
         };
         let settings = Settings { solver, ..Settings::default() };
         Arc::new(Curve { number: i + 1, settings, points: (0..10).map(point).collect() })

@@ -8,7 +8,7 @@ use crate::cancel::Cancel;
 use crate::math::rgb::{Rgb, Rgb64};
 use crate::mesh::Mesh;
 use crate::methods::{Method, Settings, Solver, Step};
-use crate::solution::{Counters, Energy, Solution};
+use crate::solution::{Counters, Energy, Progress, Solution, missing_share};
 use crate::world::World;
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -207,6 +207,21 @@ impl Method for FullMatrix {
         self.settings = *settings;
         self.begin();
         true
+    }
+
+    fn progress(&self) -> Progress {
+        let (unshot, irradiance) = match &self.stage {
+            Stage::Building(_) => (self.surfaces.exitance.as_slice(), [].as_slice()),
+            Stage::Solving(_, relaxation) => (relaxation.unshot(), relaxation.irradiance()),
+        };
+        let ambient = self.surfaces.ambient(self.surfaces.flux(unshot));
+        Progress {
+            steps: self.steps,
+            updates: self.counters.updates,
+            rays: self.counters.rays,
+            unshot_share: self.surfaces.share_of_emitted(unshot),
+            missing_share: missing_share(ambient, self.surfaces.mean_irradiance(irradiance)),
+        }
     }
 
     fn solution(&self) -> Solution {

@@ -9,7 +9,7 @@ use crate::cancel::Cancel;
 use crate::math::rgb::{Rgb64, total};
 use crate::mesh::Mesh;
 use crate::methods::{Method, Settings, Step};
-use crate::solution::{Counters, Energy, Solution};
+use crate::solution::{Counters, Energy, Progress, Solution, missing_share};
 use crate::world::World;
 use std::sync::Arc;
 use std::time::Duration;
@@ -143,6 +143,18 @@ impl Method for Progressive {
             self.settings = *settings;
         }
         same
+    }
+
+    fn progress(&self) -> Progress {
+        let ambient = self.surfaces.ambient(self.surfaces.flux(&self.unshot));
+        let arrived = self.surfaces.mean_irradiance(&self.world.mesh.patch_means(&self.irradiance));
+        Progress {
+            steps: self.counters.updates,
+            updates: self.counters.updates,
+            rays: self.counters.rays,
+            unshot_share: self.surfaces.share_of_emitted(&self.unshot),
+            missing_share: missing_share(ambient, arrived),
+        }
     }
 
     fn solution(&self) -> Solution {
