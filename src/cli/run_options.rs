@@ -87,6 +87,7 @@ impl RunOptions {
             light_rays: self.light_rays,
             hemicube_resolution: self.hemicube,
             seed: self.seed,
+            ..Settings::default()
         }
     }
 

@@ -2,8 +2,9 @@
 
 pub mod radiosity;
 mod settings;
+pub mod transport;
 
-pub use settings::{FormFactorMethod, Settings, Solver};
+pub use settings::{FormFactorMethod, ImageSettings, Kernel, PhotonSettings, Settings, Solver};
 
 use crate::cancel::Cancel;
 use crate::solution::{Progress, Solution};

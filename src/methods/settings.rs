@@ -2,6 +2,7 @@
 
 use crate::choice::Choice;
 use crate::mesh::MeshSettings;
+use crate::solution::PathFilter;
 
 /// What the person asks a run for.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -22,6 +23,115 @@ pub struct Settings {
     pub hemicube_resolution: u32,
     /// Every random number comes from this.
     pub seed: u64,
+    pub photons: PhotonSettings,
+    pub image: ImageSettings,
+}
+
+/// How light is followed as photons, and how it is read off them.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(default)]
+pub struct PhotonSettings {
+    /// Photons of the global map that a pass emits.
+    pub count: u32,
+    /// Photons that a pass emits for the caustic map, where the scene has specular surfaces.
+    pub caustic_count: u32,
+    /// The most photons that an estimate uses.
+    pub nearest: u32,
+    /// The farthest at which an estimate looks for photons, m; `None` chooses by the scene.
+    pub max_radius: Option<f32>,
+    pub kernel: Kernel,
+    /// Whether passes go on with new photons and a smaller radius each, so that noise and bias both vanish. If not, the
+    /// radius stays, and with it the bias.
+    pub is_progressive: bool,
+    /// Passes of a progressive run.
+    pub passes: u32,
+}
+
+impl PhotonSettings {
+    pub const MAX_COUNT: u32 = 50_000_000;
+    pub const MAX_NEAREST: u32 = 10_000;
+    pub const MAX_PASSES: u32 = 1_000_000;
+}
+
+impl Default for PhotonSettings {
+    fn default() -> Self {
+        Self {
+            count: 200_000,
+            caustic_count: 200_000,
+            nearest: 100,
+            max_radius: None,
+            kernel: Kernel::default(),
+            is_progressive: false,
+            passes: 100,
+        }
+    }
+}
+
+/// How much a photon counts by its distance from where light is estimated.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Kernel {
+    #[default]
+    Constant,
+    /// Falls in proportion to the distance (Jensen 1996).
+    Cone,
+    /// Falls with the square of the distance (Epanechnikov 1969): the least variance for its bias.
+    Epanechnikov,
+}
+
+impl Choice for Kernel {
+    const ALL: &'static [Self] = &[Self::Constant, Self::Cone, Self::Epanechnikov];
+    const KIND: &'static str = "kernel";
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Constant => "constant",
+            Self::Cone => "cone",
+            Self::Epanechnikov => "epanechnikov",
+        }
+    }
+
+    fn label(self) -> &'static str {
+        match self {
+            Self::Constant => "Constant",
+            Self::Cone => "Cone",
+            Self::Epanechnikov => "Epanechnikov",
+        }
+    }
+
+    fn meaning(self) -> &'static str {
+        match self {
+            Self::Constant => "Every photon within the radius counts alike",
+            Self::Cone => "Photons count less the farther away they are, down to nothing at the radius",
+            Self::Epanechnikov => "The same along a parabola: the least noise for its blur",
+        }
+    }
+}
+
+/// How pictures from a camera are made.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(default)]
+pub struct ImageSettings {
+    /// Samples a pixel.
+    pub samples: u32,
+    /// Diffuse rays of a sample of [`crate::solution::CameraView::FinalGather`].
+    pub gather_rays: u32,
+    /// Shadow rays to the emitters at each place that is seen.
+    pub light_rays: u32,
+    /// Which paths of light are shown.
+    pub filter: PathFilter,
+}
+
+impl ImageSettings {
+    pub const MAX_SAMPLES: u32 = 65_536;
+    pub const MAX_GATHER_RAYS: u32 = 65_536;
+    pub const MAX_LIGHT_RAYS: u32 = 4_096;
+}
+
+impl Default for ImageSettings {
+    fn default() -> Self {
+        Self { samples: 16, gather_rays: 64, light_rays: 4, filter: PathFilter::default() }
+    }
 }
 
 impl Settings {
@@ -32,6 +142,12 @@ impl Settings {
     pub const MAX_LIGHT_RAYS: u32 = 1_000_000_000;
     pub const MIN_HEMICUBE_RESOLUTION: u32 = 8;
     pub const MAX_HEMICUBE_RESOLUTION: u32 = 2048;
+
+    /// Whether radiosity may go on with `other` instead: all but its stop rule, and what photons and cameras do, is the same.
+    pub fn is_same_radiosity(&self, other: &Self) -> bool {
+        let Self { unshot_limit, photons, image, .. } = *other;
+        Self { unshot_limit, photons, image, ..*self } == *other
+    }
 }
 
 impl Default for Settings {
@@ -46,6 +162,8 @@ impl Default for Settings {
             light_rays: 8_000_000,
             hemicube_resolution: 256,
             seed: 0,
+            photons: PhotonSettings::default(),
+            image: ImageSettings::default(),
         }
     }
 }

@@ -11,7 +11,7 @@ mod polygonize;
 
 pub use builtin::{BUILTINS, Builtin};
 pub use doctor::{Finding, FindingKind, Severity};
-pub use material::Material;
+pub use material::{Lobes, Material};
 
 use glam::Vec3;
 use std::io;
@@ -57,6 +57,11 @@ impl Scene {
     /// [`SceneError::Empty`] where no face can be used.
     pub fn from_text(name: &'static str, obj: &str, mtl: &str) -> Result<Self, SceneError> {
         obj::read(obj, name, Source::Builtin(name), name, &mut |_| Ok(mtl.to_owned()))
+    }
+
+    /// Unit normal at a point of a polygon, of the smooth surface that it stands for; `None` where the file states none.
+    pub fn shading_normal(&self, _polygon: usize, _point: Vec3) -> Option<Vec3> {
+        None
     }
 
     fn open_file(path: &Path) -> Result<Self, SceneError> {

@@ -1,9 +1,15 @@
 //! What a method hands out: light per element, its ledger of energy, and what it cost.
 
 mod exchange;
+mod image;
+mod path;
+mod photons;
 mod probe;
 
 pub use exchange::{FormFactorMatrix, ItemBuffer, Picked, Zero};
+pub use image::{CameraImage, CameraView};
+pub use path::{Path, PathFilter, PathMatcher, Scattering};
+pub use photons::{Photon, PhotonCounters, PhotonEnergy, PhotonSolution};
 pub use probe::SurfaceProbe;
 
 use crate::math::rgb::{Rgb, Rgb64, total};

@@ -188,7 +188,7 @@ impl Method for FullMatrix {
 
     /// The stop rule may change on the way.
     fn configure(&mut self, settings: &Settings) -> bool {
-        let same = Settings { unshot_limit: settings.unshot_limit, ..self.settings } == *settings;
+        let same = self.settings.is_same_radiosity(settings);
         if same {
             self.settings = *settings;
         }
@@ -198,7 +198,8 @@ impl Method for FullMatrix {
     /// The matrix is the same for all solvers.
     fn restart(&mut self, settings: &Settings) -> bool {
         let Settings { solver, unshot_limit, overshoot, .. } = *settings;
-        if !solver.needs_matrix() || *settings != (Settings { solver, unshot_limit, overshoot, ..self.settings }) {
+        let kept = Settings { solver, unshot_limit, overshoot, ..self.settings };
+        if !solver.needs_matrix() || !kept.is_same_radiosity(settings) {
             return false;
         }
         if let Stage::Solving(matrix, relaxation) = &mut self.stage {

@@ -138,7 +138,7 @@ impl Method for Progressive {
 
     /// The stop rule may change on the way; everything else would have led elsewhere from the first shot.
     fn configure(&mut self, settings: &Settings) -> bool {
-        let same = Settings { unshot_limit: settings.unshot_limit, ..self.settings } == *settings;
+        let same = self.settings.is_same_radiosity(settings);
         if same {
             self.settings = *settings;
         }

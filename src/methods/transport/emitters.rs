@@ -1,0 +1,143 @@
+//! Emitters: where light starts, and where shadow rays go.
+
+use crate::math::random::{hash, sobol2};
+use crate::math::rgb::{Rgb, Rgb64, total};
+use crate::math::warp::{cosine_hemisphere, frame};
+use crate::mesh::{Region, Sampler};
+use crate::tracer::Ray;
+use crate::world::World;
+use glam::{Vec2, Vec3A};
+use std::f64::consts::PI;
+
+/// Points of one low-discrepancy sequence; the next ones belong to another.
+const SEQUENCE: u64 = 1 << 16;
+
+/// The triangles of all emitters, chosen in proportion to their flux.
+pub struct Emitters {
+    lamps: Vec<Lamp>,
+    /// For each lamp the share of the flux of it and those before, in [0, 1].
+    cumulative: Vec<f64>,
+    flux: Rgb64,
+}
+
+/// A triangle that emits from its front.
+struct Lamp {
+    points: Sampler,
+    normal: Vec3A,
+    polygon: u32,
+    /// W/(m²·sr)
+    radiance: Rgb,
+    /// m²
+    area: f64,
+    /// Chance to be chosen.
+    chance: f64,
+}
+
+/// A photon as it leaves an emitter.
+#[derive(Clone, Copy, Debug)]
+pub struct Emission {
+    pub ray: Ray,
+    /// W
+    pub flux: Rgb,
+}
+
+/// A point of an emitter, chosen with a known density.
+#[derive(Clone, Copy, Debug)]
+pub struct LampPoint {
+    /// Lifted off the surface.
+    pub point: Vec3A,
+    /// Unit normal of the front.
+    pub normal: Vec3A,
+    pub polygon: u32,
+    /// W/(m²·sr)
+    pub radiance: Rgb,
+    /// 1/m²
+    pub density: f32,
+}
+
+impl Emitters {
+    /// The emitters of a world; `normal` is the unit normal of a polygon's front.
+    pub fn new(world: &World, normal: impl Fn(usize) -> Vec3A) -> Self {
+        let scene = &world.scene;
+        let mut lamps = Vec::new();
+        for (index, polygon) in scene.polygons.iter().enumerate() {
+            let material = &scene.materials[polygon.material as usize];
+            if !material.is_emitter() {
+                continue;
+            }
+            let corner = |i: usize| Vec3A::from(scene.positions[polygon.corners()[i] as usize]);
+            // A quad need not be a parallelogram, on which alone a bilinear map is uniform.
+            for i in 2..polygon.corners().len() {
+                let corners = [corner(0), corner(i - 1), corner(i)];
+                let normal = normal(index);
+                let region = Region::new([corners[0], corners[1], corners[2], corners[2]], 3);
+                let [a, b, c] = corners.map(|corner| corner.as_dvec3());
+                lamps.push(Lamp {
+                    points: region.sampler(world.tracer.offset() * normal),
+                    normal,
+                    polygon: index as u32,
+                    radiance: material.emission,
+                    area: 0.5 * (b - a).cross(c - a).length(),
+                    chance: 0.0,
+                });
+            }
+        }
+        let flux: Rgb64 = lamps.iter().map(Lamp::flux).sum();
+        let mut sum = 0.0;
+        let mut cumulative = Vec::with_capacity(lamps.len());
+        for lamp in &mut lamps {
+            lamp.chance = total(lamp.flux()) / total(flux);
+            sum += lamp.chance;
+            cumulative.push(sum);
+        }
+        Self { lamps, cumulative, flux }
+    }
+
+    /// Whether nothing emits.
+    pub fn is_empty(&self) -> bool {
+        self.lamps.is_empty()
+    }
+
+    /// Σ π L A, W.
+    pub fn flux(&self) -> Rgb64 {
+        self.flux
+    }
+
+    /// Photon `index` of `count` that share the flux of all emitters: from a point in proportion to the flux that leaves
+    /// there, in a direction with the density cos θ / π. Points, directions and emitters of the first 65,536 photons of a
+    /// (seed, pass), and of each 65,536 after them, are a low-discrepancy sequence. `None` where nothing emits.
+    pub fn emit(&self, index: u64, count: u64, seed: u64, pass: u64) -> Option<Emission> {
+        let sequence = hash(seed, pass, index / SEQUENCE) as u32;
+        let place = (index % SEQUENCE) as u32;
+        let lamp = self.choose(f64::from(sobol2(place, 2, sequence).x))?;
+        let direction = frame(lamp.normal) * cosine_hemisphere(sobol2(place, 1, sequence));
+        let origin = lamp.points.point(sobol2(place, 0, sequence));
+        let flux = lamp.flux() / (lamp.chance * count as f64);
+        Some(Emission { ray: Ray { origin, direction }, flux: flux.as_vec3() })
+    }
+
+    /// A point of an emitter, for numbers in [0, 1): emitters in proportion to their flux, points evenly over each. `None`
+    /// where nothing emits.
+    pub fn point(&self, choice: f32, at: Vec2) -> Option<LampPoint> {
+        let lamp = self.choose(f64::from(choice))?;
+        Some(LampPoint {
+            point: lamp.points.point(at),
+            normal: lamp.normal,
+            polygon: lamp.polygon,
+            radiance: lamp.radiance,
+            density: (lamp.chance / lamp.area) as f32,
+        })
+    }
+
+    fn choose(&self, choice: f64) -> Option<&Lamp> {
+        let place = self.cumulative.partition_point(|&share| share <= choice);
+        self.lamps.get(place).or(self.lamps.last())
+    }
+}
+
+impl Lamp {
+    /// W
+    fn flux(&self) -> Rgb64 {
+        self.radiance.as_dvec3() * (PI * self.area)
+    }
+}

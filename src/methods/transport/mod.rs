@@ -1,0 +1,107 @@
+//! Where rays meet surfaces and what these do with light: shared by photons, which go with the light, and by the rays of a
+//! camera, which go against it.
+
+mod bsdf;
+mod emitters;
+mod fresnel;
+mod media;
+mod phong;
+mod surface;
+
+pub use bsdf::{Bsdf, Sample};
+pub use emitters::{Emission, Emitters, LampPoint};
+pub use fresnel::{fresnel_reflectance, reflect, refract};
+pub use media::Media;
+pub use surface::Surface;
+
+use crate::math::polygon::vector_area;
+use crate::scene::Material;
+use crate::tracer::Ray;
+use crate::world::World;
+use glam::{DVec3, Vec3, Vec3A};
+use std::sync::Arc;
+
+/// A world made ready for rays that are reflected, refracted and absorbed.
+pub struct Transport {
+    pub world: Arc<World>,
+    facets: Vec<Facet>,
+    emitters: Emitters,
+}
+
+/// What is asked of a polygon at every hit.
+#[derive(Clone, Copy)]
+struct Facet {
+    /// Unit normal of the front.
+    normal: Vec3A,
+    /// A corner.
+    origin: Vec3A,
+}
+
+impl Transport {
+    pub fn new(world: Arc<World>) -> Self {
+        let scene = &world.scene;
+        let facet = |corners: &[u32]| {
+            let corners: Vec<Vec3> = corners.iter().map(|&corner| scene.positions[corner as usize]).collect();
+            let precise: Vec<DVec3> = corners.iter().map(|corner| corner.as_dvec3()).collect();
+            Facet { normal: vector_area(&precise).normalize_or_zero().as_vec3a(), origin: corners[0].into() }
+        };
+        let facets: Vec<Facet> = scene.polygons.iter().map(|polygon| facet(polygon.corners())).collect();
+        let emitters = Emitters::new(&world, |polygon| facets[polygon].normal);
+        Self { facets, emitters, world }
+    }
+
+    pub fn emitters(&self) -> &Emitters {
+        &self.emitters
+    }
+
+    /// The first surface along a ray.
+    pub fn meet(&self, ray: &Ray) -> Option<Surface> {
+        let hit = self.world.tracer.closest(ray)?;
+        let Facet { normal, origin } = self.facets[hit.polygon as usize];
+        let facing = if hit.is_front { normal } else { -normal };
+        let along = ray.origin + hit.distance * ray.direction;
+        // A long ray rounds more than a lift off the surface makes good: back onto the plane.
+        let point = along - facing * (along - origin).dot(facing);
+        let shading = self.world.scene.shading_normal(hit.polygon as usize, point.into());
+        Some(Surface {
+            polygon: hit.polygon,
+            is_front: hit.is_front,
+            distance: hit.distance,
+            point,
+            facing,
+            normal: shading.map_or(facing, |normal| towards(normal.into(), facing)),
+            material: self.world.scene.polygons[hit.polygon as usize].material,
+        })
+    }
+
+    pub fn material(&self, surface: &Surface) -> &Material {
+        &self.world.scene.materials[surface.material as usize]
+    }
+
+    /// What a surface does with light that arrives from, or leaves to, this unit direction, which points away from it.
+    pub fn bsdf(&self, surface: &Surface, towards: Vec3A, media: &Media) -> Bsdf {
+        let index = media.index_across(surface, &self.world.scene.materials);
+        Bsdf::new(&self.material(surface).lobes(), surface, towards, index)
+    }
+
+    /// Radiance that a surface itself sends, W/(m²·sr). Emitters shine from their front.
+    pub fn emission(&self, surface: &Surface) -> crate::math::rgb::Rgb {
+        if surface.is_front { self.material(surface).emission } else { crate::math::rgb::Rgb::ZERO }
+    }
+
+    /// The ray that leaves a surface in a unit direction, on whichever side that lies.
+    pub fn leave(&self, surface: &Surface, direction: Vec3A) -> Ray {
+        let side = if direction.dot(surface.facing) >= 0.0 { surface.facing } else { -surface.facing };
+        Ray { origin: self.world.tracer.lift(surface.point, side), direction }
+    }
+
+    /// Whether nothing stands between a surface, on the side that was met, and a point that is lifted off its own.
+    pub fn sees(&self, surface: &Surface, point: Vec3A) -> bool {
+        self.world.tracer.is_visible(self.world.tracer.lift(surface.point, surface.facing), point)
+    }
+}
+
+/// `normal`, or its opposite, whichever is on the side of `facing`.
+fn towards(normal: Vec3A, facing: Vec3A) -> Vec3A {
+    if normal.dot(facing) < 0.0 { -normal } else { normal }
+}

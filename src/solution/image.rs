@@ -1,0 +1,103 @@
+//! What the methods hand out that look from a camera: radiance, pixel by pixel.
+
+use crate::camera::Camera;
+use crate::choice::Choice;
+use crate::math::rgb::Rgb;
+use std::time::Duration;
+
+/// What a picture from a camera is made of.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum CameraView {
+    /// Irradiance estimated from the photons near by, shown as the radiance of a white surface.
+    PhotonIrradiance,
+    /// The same times the diffuse reflectance: the radiance that the surface sends on.
+    PhotonRadiance,
+    /// The same from the photons alone that came over specular surfaces.
+    Caustics,
+    /// Direct light, mirrors, gloss and glass; no diffuse interreflection.
+    #[default]
+    RayTraced,
+    /// The radiosity solution seen directly, with specular surfaces traced (Wallace, Cohen, Greenberg 1987).
+    RadiositySpecular,
+    /// Direct and specular rays, a caustic map, and diffuse rays that end in the photon map (Jensen 1996).
+    FinalGather,
+}
+
+impl CameraView {
+    /// Whether the picture is read off a map of photons.
+    pub fn needs_photons(self) -> bool {
+        !matches!(self, Self::RayTraced | Self::RadiositySpecular)
+    }
+
+    /// Whether the picture is read off a radiosity solution.
+    pub fn needs_radiosity(self) -> bool {
+        self == Self::RadiositySpecular
+    }
+}
+
+impl Choice for CameraView {
+    const ALL: &'static [Self] = &[
+        Self::PhotonIrradiance,
+        Self::PhotonRadiance,
+        Self::Caustics,
+        Self::RayTraced,
+        Self::RadiositySpecular,
+        Self::FinalGather,
+    ];
+    const KIND: &'static str = "view from a camera";
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::PhotonIrradiance => "photon-irradiance",
+            Self::PhotonRadiance => "photon-radiance",
+            Self::Caustics => "caustics",
+            Self::RayTraced => "ray-traced",
+            Self::RadiositySpecular => "radiosity-specular",
+            Self::FinalGather => "final-gather",
+        }
+    }
+
+    fn label(self) -> &'static str {
+        match self {
+            Self::PhotonIrradiance => "Photon irradiance",
+            Self::PhotonRadiance => "Photon radiance",
+            Self::Caustics => "Caustics",
+            Self::RayTraced => "Ray-traced",
+            Self::RadiositySpecular => "Radiosity + specular",
+            Self::FinalGather => "Final gather",
+        }
+    }
+
+    fn meaning(self) -> &'static str {
+        match self {
+            Self::PhotonIrradiance => "Light that arrives, estimated from the photons near by",
+            Self::PhotonRadiance => "The same times the diffuse reflectance: light that is sent on",
+            Self::Caustics => "Light that mirrors and glass gather on diffuse surfaces",
+            Self::RayTraced => "Direct light, mirrors and glass; no light between diffuse surfaces",
+            Self::RadiositySpecular => "Radiosity seen directly, with mirrors, gloss and glass traced on top",
+            Self::FinalGather => "Direct and specular light by rays, diffuse light gathered from the photon map",
+        }
+    }
+}
+
+/// A picture from a camera at one moment: coarse at first, then finer, then less noisy.
+#[derive(Clone, Debug)]
+pub struct CameraImage {
+    pub view: CameraView,
+    pub camera: Camera,
+    /// Width and height of the picture that was asked for, pixels.
+    pub size: [u32; 2],
+    /// Width and height of the grid of `radiance`: `size`, or less while it is coarse.
+    pub resolution: [u32; 2],
+    /// L, W/(m²·sr), row by row from the top left; for [`CameraView::PhotonIrradiance`] E/π.
+    pub radiance: Vec<Rgb>,
+    /// Share of each cell that shows a surface, in [0, 1]; the rest is background.
+    pub coverage: Vec<f32>,
+    /// Samples a pixel so far; 0 while it is coarse.
+    pub samples: u32,
+    pub rays: u64,
+    /// Time spent on the picture, filled in by whoever runs it.
+    pub elapsed: Duration,
+    pub is_complete: bool,
+}
