@@ -9,7 +9,7 @@ mod probe;
 pub use exchange::{FormFactorMatrix, ItemBuffer, Picked, Zero};
 pub use image::{CameraImage, CameraView};
 pub use path::{Path, PathFilter, PathMatcher, Scattering};
-pub use photons::{Photon, PhotonCounters, PhotonEnergy, PhotonSolution};
+pub use photons::{Gathered, Photon, PhotonCounters, PhotonEnergy, PhotonSolution, PhotonTrail, Split, TrailPlace};
 pub use probe::SurfaceProbe;
 
 use crate::math::rgb::{Rgb, Rgb64, total};

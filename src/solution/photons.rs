@@ -1,6 +1,6 @@
 //! What photon mapping hands out: photons where they landed, and the books of their flux.
 
-use super::Path;
+use super::{Path, Scattering};
 use crate::math::rgb::{Rgb, Rgb64};
 use glam::Vec3;
 use std::sync::Arc;
@@ -19,6 +19,62 @@ pub struct Photon {
     pub side: u32,
     /// The surfaces that it met before it landed here.
     pub path: Path,
+    /// Which photon of its pass and map it is, counted as they left the emitters: its whole way can be traced again.
+    pub emission: u32,
+}
+
+/// A plane that divides a cell of the tree in which photons are looked up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Split {
+    /// Of the cell; the whole map is at 0.
+    pub depth: u8,
+    /// 0, 1 or 2 for x, y or z.
+    pub axis: u8,
+    /// Where the plane is on that axis, m.
+    pub at: f32,
+    /// The cell that it divides, m.
+    pub min: Vec3,
+    pub max: Vec3,
+}
+
+/// The way of one photon, from the emitter on.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PhotonTrail {
+    pub places: Vec<TrailPlace>,
+    /// Where it flew into the void, if it did: a unit direction.
+    pub escape: Option<Vec3>,
+}
+
+/// A place of a photon's way, and the roulette that was played there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TrailPlace {
+    pub point: Vec3,
+    /// With which it arrived, or left the emitter, W.
+    pub flux: Rgb,
+    /// Chance that it goes on, in [0, 1]; 1 at the emitter.
+    pub survival: f32,
+    /// How it went on; `None` where it was absorbed.
+    pub scattering: Option<Scattering>,
+}
+
+/// What the estimate of irradiance at one point is made of.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Gathered {
+    pub point: Vec3,
+    /// Unit normal on the side that was looked at.
+    pub normal: Vec3,
+    /// E, W/m².
+    pub irradiance: Rgb,
+    /// Radius of the disc, m.
+    pub radius: f32,
+    /// Share of the disc that is surface on which photons can land, in (0, 1].
+    pub inside: f32,
+    /// Relative standard error of the estimate.
+    pub relative_error: f32,
+    /// Indices of the photons that count.
+    pub used: Vec<u32>,
+    /// Indices of photons as near that do not belong: on a side turned away, off the plane, behind a wall, round a corner.
+    pub rejected: Vec<u32>,
 }
 
 /// A finished copy of what photon mapping knows at one moment.
@@ -34,6 +90,8 @@ pub struct PhotonSolution {
     pub is_complete: bool,
     /// The photons of the present pass, those of the caustic map included.
     pub photons: Arc<Vec<Photon>>,
+    /// How the tree divides them, from the root down to a depth that can still be drawn.
+    pub splits: Arc<Vec<Split>>,
     /// Largest radius within which photons are looked for in the present pass, m.
     pub max_radius: f32,
     /// Of all photons of the global map.

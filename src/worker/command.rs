@@ -1,7 +1,9 @@
 //! What the window may ask of the solver thread.
 
+use crate::camera::Camera;
 use crate::methods::Settings;
 use crate::scene::Scene;
+use crate::solution::CameraView;
 use crate::world::World;
 use std::fmt;
 use std::sync::Arc;
@@ -25,6 +27,27 @@ pub enum Command {
     Reset,
     /// Computes what this patch sees, or forgets about it. Without effect if another world is on show by then.
     Pick(Option<Place>),
+    /// Says what is on show: it is worked on first, and a picture from a camera is made anew where anything of it changed.
+    Look(Sight),
+}
+
+/// What is on show.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sight {
+    pub subject: Subject,
+    pub camera: Camera,
+    /// Width and height of the picture, pixels.
+    pub size: [u32; 2],
+}
+
+/// Whose work is on show. `Run`, `Step`, `Pause` and `Reset` are about its light: the radiosity solution, or the photons
+/// that a picture is read off. Pictures from a camera are made without being told to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Subject {
+    #[default]
+    Radiosity,
+    Photons,
+    Camera(CameraView),
 }
 
 /// A patch of a world.

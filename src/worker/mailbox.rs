@@ -123,6 +123,7 @@ fn merge(commands: &mut VecDeque<Command>, new: Command) {
             commands.retain(|old| !matches!(old, Command::Run | Command::Pause | Command::Step(_) | Command::Reset));
         }
         Command::Pick(_) => commands.retain(|old| !matches!(old, Command::Pick(_))),
+        Command::Look(_) => commands.retain(|old| !matches!(old, Command::Look(_))),
         Command::AddCeilingLight => {}
     }
     commands.push_back(new);

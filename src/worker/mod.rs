@@ -12,12 +12,12 @@ mod run;
 mod solver;
 
 pub use checks::{CheckReport, Checks};
-pub use command::{Command, Place, Shown};
+pub use command::{Command, Place, Shown, Sight, Subject};
 pub use history::{Curve, CurvePoint};
 pub use run::{Refused, Run};
 
 use crate::methods::{Method, Settings};
-use crate::solution::{Picked, Solution};
+use crate::solution::{CameraImage, Gathered, PhotonSolution, PhotonTrail, Picked, Solution};
 use crate::world::World;
 use mailbox::Mailbox;
 use solver::Solver;
@@ -33,6 +33,14 @@ pub struct Snapshot {
     pub solution: Option<Arc<Solution>>,
     /// What the picked patch sees; belongs to `world`.
     pub picked: Option<Arc<Picked>>,
+    /// What photons have brought; belongs to `world`.
+    pub photons: Option<Arc<PhotonSolution>>,
+    /// The picture from a camera that was made last; belongs to `world`.
+    pub image: Option<Arc<CameraImage>>,
+    /// The way of the picked photon.
+    pub trail: Option<Arc<PhotonTrail>>,
+    /// What the estimate at the picked point is made of.
+    pub gathered: Option<Arc<Gathered>>,
     /// How the runs on this scene went, the one under way last.
     pub curves: Vec<Arc<Curve>>,
     /// The settings that `world` and `solution` were made with.

@@ -97,6 +97,7 @@ impl Solver {
             Command::Pause => self.pause(),
             Command::Reset => self.restart(),
             Command::Pick(place) => self.pick(place),
+            Command::Look(_) => {}
         }
     }
 
