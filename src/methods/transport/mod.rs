@@ -15,6 +15,7 @@ pub use media::Media;
 pub use surface::Surface;
 
 use crate::math::polygon::vector_area;
+use crate::math::rgb::Rgb;
 use crate::scene::Material;
 use crate::tracer::Ray;
 use crate::world::World;
@@ -84,9 +85,14 @@ impl Transport {
         Bsdf::new(&self.material(surface).lobes(), surface, towards, index)
     }
 
+    /// The media behind a surface, for light that goes through it.
+    pub fn media_behind(&self, surface: &Surface, media: Media) -> Media {
+        if self.material(surface).lobes().glass > 0.0 { media.across(surface) } else { media }
+    }
+
     /// Radiance that a surface itself sends, W/(m²·sr). Emitters shine from their front.
-    pub fn emission(&self, surface: &Surface) -> crate::math::rgb::Rgb {
-        if surface.is_front { self.material(surface).emission } else { crate::math::rgb::Rgb::ZERO }
+    pub fn emission(&self, surface: &Surface) -> Rgb {
+        if surface.is_front { self.material(surface).emission } else { Rgb::ZERO }
     }
 
     /// The ray that leaves a surface in a unit direction, on whichever side that lies.

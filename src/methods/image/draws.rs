@@ -1,0 +1,51 @@
+//! The random numbers of one sample of one pixel.
+
+use crate::math::random::{Stream, hash, sobol2};
+use glam::Vec2;
+
+/// Points of one low-discrepancy sequence; the next ones belong to another.
+const SEQUENCE: u64 = 1 << 16;
+
+/// What is well spread over the samples of a pixel: each use has points of its own.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Use {
+    /// The place in the pixel.
+    Pixel,
+    /// The point of an emitter that the first diffuse surface is lit from.
+    Light,
+    /// The direction of a diffuse ray.
+    Gather,
+}
+
+/// Random numbers from (seed, pixel, sample) alone. Points of each [`Use`] are low-discrepancy over all samples of a pixel,
+/// so that its noise falls faster than with independent ones.
+pub struct Draws {
+    pixel: u64,
+    sample: u64,
+    /// For all that is not worth spreading.
+    pub stream: Stream,
+}
+
+impl Draws {
+    pub fn new(seed: u64, pixel: u64, sample: u32) -> Self {
+        let pixel = hash(seed, PASS, pixel);
+        Self { pixel, sample: sample.into(), stream: Stream::new(pixel, PASS, sample.into()) }
+    }
+
+    /// Point `i` of `count` that each sample takes for this use, in [0, 1)².
+    pub fn spread(&self, what: Use, i: u32, count: u32) -> Vec2 {
+        let index = self.sample * u64::from(count) + u64::from(i);
+        let seed = hash(self.pixel, what as u64, index / SEQUENCE) as u32;
+        sobol2((index % SEQUENCE) as u32, 0, seed)
+    }
+
+    /// The same as one number, with other points.
+    pub fn spread1(&self, what: Use, i: u32, count: u32) -> f32 {
+        let index = self.sample * u64::from(count) + u64::from(i);
+        let seed = hash(self.pixel, what as u64, index / SEQUENCE) as u32;
+        sobol2((index % SEQUENCE) as u32, 1, seed).x
+    }
+}
+
+/// Marks this use of (seed, index) among the others.
+const PASS: u64 = 0x0069_6d61_6765;

@@ -1,0 +1,59 @@
+//! Where the light of diffuse surfaces is known from, one for each view.
+
+use super::direct;
+use super::draws::Draws;
+use super::eye_path::{DiffuseLight, Seen};
+use crate::math::rgb::Rgb;
+use crate::methods::transport::Transport;
+use crate::solution::{Path, PathMatcher, Scattering, Solution};
+use std::f32::consts::PI;
+use std::sync::Arc;
+
+/// Straight from the emitters, and nothing else: the light of classic ray tracing.
+pub struct DirectLight {
+    pub transport: Arc<Transport>,
+    pub rays: u32,
+    pub matcher: PathMatcher,
+}
+
+impl DiffuseLight for DirectLight {
+    fn leaving(&self, seen: &Seen<'_>, draws: &mut Draws) -> (Rgb, u64) {
+        if !self.matcher.passes(Path::LIGHT, Some(Scattering::Diffuse), seen.to_eye) {
+            return (Rgb::ZERO, 0);
+        }
+        direct_light(&self.transport, seen, self.rays, draws)
+    }
+}
+
+/// Well spread rays where the eye looks directly; behind a mirror one is enough.
+pub fn direct_light(transport: &Transport, seen: &Seen<'_>, rays: u32, draws: &mut Draws) -> (Rgb, u64) {
+    if seen.to_eye.is_empty() {
+        (direct::spread(transport, seen.surface, seen.bsdf, rays, draws), rays.into())
+    } else {
+        (direct::random(transport, seen.surface, seen.bsdf, draws), 1)
+    }
+}
+
+/// Read off a radiosity solution, smooth between the vertices of its mesh.
+pub struct RadiosityLight {
+    transport: Arc<Transport>,
+    /// E, W/m².
+    vertex_irradiance: Vec<Rgb>,
+}
+
+impl RadiosityLight {
+    pub fn new(transport: Arc<Transport>, solution: &Solution) -> Self {
+        let mut vertex_irradiance = Vec::new();
+        transport.world.mesh.smooth(&solution.light.irradiance, &mut vertex_irradiance);
+        Self { transport, vertex_irradiance }
+    }
+}
+
+impl DiffuseLight for RadiosityLight {
+    fn leaving(&self, seen: &Seen<'_>, _draws: &mut Draws) -> (Rgb, u64) {
+        let mesh = &self.transport.world.mesh;
+        let location = mesh.locate(seen.surface.polygon, seen.surface.is_front, seen.surface.point);
+        let irradiance = location.map_or(Rgb::ZERO, |location| mesh.interpolate(&location, &self.vertex_irradiance));
+        (seen.bsdf.diffuse() * irradiance / PI, 0)
+    }
+}

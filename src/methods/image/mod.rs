@@ -1,0 +1,126 @@
+//! Pictures from a camera: rays go from the eye over specular surfaces to diffuse ones, whose light is known from shadow rays,
+//! from a radiosity solution, or from photons.
+
+mod direct;
+mod draws;
+mod eye_path;
+mod film;
+mod lights;
+
+use crate::camera::Camera;
+use crate::cancel::Cancel;
+use crate::methods::transport::Transport;
+use crate::methods::{ImageSettings, Settings, Step};
+use crate::solution::{CameraImage, CameraView, PathFilter, Solution};
+use eye_path::{DiffuseLight, EyePath};
+use film::Film;
+use lights::{DirectLight, RadiosityLight};
+use std::sync::Arc;
+use std::time::Duration;
+
+/// What a picture can be read off.
+#[derive(Clone)]
+pub struct Sources {
+    pub transport: Arc<Transport>,
+    pub radiosity: Option<Arc<Solution>>,
+}
+
+impl Sources {
+    fn light(&self, view: CameraView, settings: &ImageSettings) -> Option<Box<dyn DiffuseLight>> {
+        let transport = self.transport.clone();
+        Some(match view {
+            CameraView::RayTraced => {
+                Box::new(DirectLight { transport, rays: settings.light_rays, matcher: settings.filter.matcher() })
+            }
+            CameraView::RadiositySpecular => Box::new(RadiosityLight::new(transport, self.radiosity.as_ref()?)),
+            _ => return None,
+        })
+    }
+
+    fn eye_path(&self, view: CameraView, settings: &ImageSettings) -> Option<EyePath> {
+        // Radiosity knows nothing of the ways that its light came.
+        let filter = if view.needs_radiosity() { PathFilter::default() } else { settings.filter };
+        Some(EyePath {
+            transport: self.transport.clone(),
+            light: self.light(view, settings)?,
+            matcher: filter.matcher(),
+        })
+    }
+}
+
+/// A picture in the making: plain state and a step.
+pub struct ImageRun {
+    view: CameraView,
+    camera: Camera,
+    size: [u32; 2],
+    settings: ImageSettings,
+    path: EyePath,
+    film: Film,
+}
+
+impl ImageRun {
+    /// A picture of `size` pixels before its first step; `None` where the view needs light that `sources` do not have.
+    pub fn new(
+        sources: &Sources,
+        view: CameraView,
+        camera: Camera,
+        size: [u32; 2],
+        settings: &Settings,
+    ) -> Option<Self> {
+        Some(Self {
+            view,
+            camera,
+            size,
+            settings: settings.image,
+            path: sources.eye_path(view, &settings.image)?,
+            film: Film::new(camera, size, settings.seed),
+        })
+    }
+
+    /// Goes on with other light, so that the picture becomes the mean over both: for passes of photons. False, and nothing
+    /// changes, where that light is not there.
+    pub fn go_on_with(&mut self, sources: &Sources) -> bool {
+        let path = sources.eye_path(self.view, &self.settings);
+        let is_there = path.is_some();
+        if let Some(path) = path {
+            self.path = path;
+        }
+        is_there
+    }
+
+    /// Samples a pixel that are done.
+    pub fn samples(&self) -> u32 {
+        self.film.samples()
+    }
+
+    /// Whether a sample of every pixel was just finished.
+    pub fn is_between_passes(&self) -> bool {
+        self.film.is_between_passes()
+    }
+
+    /// Some tiles of the pass under way; all of it or nothing. The first passes are coarse.
+    pub fn step(&mut self, cancel: &Cancel) -> Step {
+        if self.film.samples() >= self.settings.samples {
+            return Step::Converged;
+        }
+        if self.film.expose(&self.path, cancel) { Step::Advanced } else { Step::Cancelled }
+    }
+
+    /// The picture so far; `None` before the first coarse pass is whole. Its `elapsed` is zero: whoever steps it holds the
+    /// clock.
+    pub fn image(&self) -> Option<CameraImage> {
+        let developed = self.film.develop()?;
+        Some(CameraImage {
+            view: self.view,
+            camera: self.camera,
+            size: self.size,
+            resolution: developed.resolution,
+            radiance: developed.radiance,
+            coverage: developed.coverage,
+            samples: self.film.samples(),
+            rays: self.film.rays(),
+            elapsed: Duration::ZERO,
+            is_complete: self.film.samples() >= self.settings.samples,
+        })
+    }
+}
