@@ -9,7 +9,10 @@ use lightwell::cancel::Cancel;
 use lightwell::mesh::MeshSettings;
 use lightwell::methods::Settings;
 use lightwell::scene::Scene;
-use lightwell::viewport::{AdapterChoice, Frame, Gpu, Light, ToneCurve, View, Viewport, automatic_exposure};
+use lightwell::solution::PathFilter;
+use lightwell::viewport::{
+    AdapterChoice, Frame, Gpu, Light, PhotonLook, ToneCurve, View, Viewport, automatic_exposure,
+};
 use lightwell::worker::Run;
 use lightwell::world::World;
 use std::hint::black_box;
@@ -27,7 +30,7 @@ fn take_over(gpu: &Gpu, viewport: &mut Viewport, world: &World, light: &Light, f
     let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     viewport.draw(&mut encoder, frame);
     let commands = encoder.finish();
-    black_box(automatic_exposure(world, &light.solution));
+    black_box(automatic_exposure(world, light.solution.as_deref()));
     let elapsed = start.elapsed();
     gpu.queue.submit([commands]);
     gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("the device works");
@@ -62,6 +65,8 @@ fn window_work(criterion: &mut Criterion) {
         ambient: false,
         wireframe: false,
         show_shooter: true,
+        photons: PhotonLook::default(),
+        filter: PathFilter::default(),
         exposure_ev: 0.0,
         tone: ToneCurve::Linear,
     };

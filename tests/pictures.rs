@@ -9,9 +9,10 @@ use lightwell::mesh::MeshSettings;
 use lightwell::methods::radiosity::pick;
 use lightwell::methods::{Settings, Solver, Step};
 use lightwell::scene::Scene;
-use lightwell::solution::Solution;
+use lightwell::solution::{PathFilter, Solution};
 use lightwell::viewport::{
-    AdapterChoice, Frame, Gpu, Light, Picture, ToneCurve, View, automatic_exposure, diagram, pick_patch, render_picture,
+    AdapterChoice, Frame, Gpu, Light, PhotonLook, Picture, ToneCurve, View, automatic_exposure, diagram, pick_patch,
+    render_picture,
 };
 use lightwell::worker::Run;
 use lightwell::world::World;
@@ -70,14 +71,16 @@ fn compare_view(gpu: &Gpu, scene: &str, view: View, wireframe: bool, shots: usiz
         ambient: false,
         wireframe,
         show_shooter: wireframe,
-        exposure_ev: automatic_exposure(&world, &solution),
+        photons: PhotonLook::default(),
+        filter: PathFilter::default(),
+        exposure_ev: automatic_exposure(&world, Some(&solution)),
         tone: ToneCurve::Linear,
     };
     let patch = pick_patch(&world, &camera, RED_WALL, SIZE).expect("a patch of the wall");
     let picked = view
         .is_false_colour()
         .then(|| Arc::new(pick(&world, &settings, patch, &Cancel::default()).expect("nothing cancels it")));
-    let light = Light { solution: Arc::new(solution), picked };
+    let light = Light { picked, ..solution.into() };
     let picture = render_picture(gpu, &world, &light, &frame, 16).expect("a picture");
     compare(&picture, &format!("{scene}-{}", view.name()));
 }

@@ -137,7 +137,6 @@ impl Explorer {
         let mut actions = Vec::new();
         let error = self.snapshot.error.as_deref().filter(|_| !self.is_error_dismissed);
         let report = self.checks.as_ref().map(Checks::latest);
-        let picked = self.snapshot.picked.as_deref();
         let model = Model {
             phase: &self.snapshot.phase,
             scene: SceneFacts::of(&self.snapshot),
@@ -151,7 +150,7 @@ impl Explorer {
             lower: self.preferences.lower,
             chart: self.preferences.chart,
             checks: report.as_deref(),
-            missing: self.snapshot.solution.as_deref().and_then(|solution| self.look.view.missing(solution, picked)),
+            missing: self.pane.shown().and_then(|(_, light)| self.look.view.missing(light)),
             legend: self.pane.shown().and_then(|(_, light)| Legend::of(self.look.view, light)),
             matrix: self.diagrams.matrix(),
             item_buffer: self.diagrams.item_buffer(),
@@ -163,8 +162,8 @@ impl Explorer {
             adapter: &self.adapter,
             frame_time: self.clock.frame_time(),
         };
-        let (pane, look) = (&mut self.pane, self.look);
-        panels::show(ui, &model, &mut actions, |ui, rect| pane.paint(ui, rect, &look));
+        let (pane, look, filter) = (&mut self.pane, self.look, self.snapshot.settings.image.filter);
+        panels::show(ui, &model, &mut actions, |ui, rect| pane.paint(ui, rect, &look, filter));
         actions
     }
 
@@ -247,7 +246,9 @@ impl Explorer {
     }
 
     fn save_picture(&mut self, request: PictureRequest, destination: Destination) {
-        let (Some((world, light)), Some(frame)) = (self.pane.shown(), self.pane.frame(&self.look, request.size)) else {
+        let (Some((world, light)), Some(frame)) =
+            (self.pane.shown(), self.pane.frame(&self.look, self.snapshot.settings.image.filter, request.size))
+        else {
             return;
         };
         let job = Job {

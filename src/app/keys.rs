@@ -2,6 +2,7 @@
 
 use super::action::{Action, CameraMove};
 use super::model::{Dialog, Look, LowerPanel, Model};
+use crate::solution::CameraView;
 use crate::viewport::View;
 use crate::worker::Command;
 use egui::{Event, InputState, Key, KeyboardShortcut, Modifiers};
@@ -41,6 +42,14 @@ pub const UNSHOT: KeyboardShortcut = key(Key::Num3);
 pub const ABSORBED: KeyboardShortcut = key(Key::Num4);
 pub const BOUNCES: KeyboardShortcut = key(Key::Num5);
 pub const FORM_FACTORS: KeyboardShortcut = key(Key::Num6);
+pub const PHOTONS: KeyboardShortcut = key(Key::Num7);
+pub const KD_TREE: KeyboardShortcut = key(Key::Num8);
+pub const PHOTON_IRRADIANCE: KeyboardShortcut = key(Key::Num9);
+pub const PHOTON_RADIANCE: KeyboardShortcut = key(Key::Num0);
+pub const CAUSTICS: KeyboardShortcut = KeyboardShortcut::new(Modifiers::SHIFT, Key::Num1);
+pub const RAY_TRACED: KeyboardShortcut = KeyboardShortcut::new(Modifiers::SHIFT, Key::Num2);
+pub const RADIOSITY_SPECULAR: KeyboardShortcut = KeyboardShortcut::new(Modifiers::SHIFT, Key::Num3);
+pub const FINAL_GATHER: KeyboardShortcut = KeyboardShortcut::new(Modifiers::SHIFT, Key::Num4);
 pub const WIREFRAME: KeyboardShortcut = key(Key::W);
 pub const SHOOTER: KeyboardShortcut = key(Key::O);
 pub const UNPICK: KeyboardShortcut = key(Key::Escape);
@@ -72,6 +81,20 @@ pub const BINDINGS: &[Binding] = &[
     Binding::new(ABSORBED, "View: absorbed light", |model| view(model, View::Absorbed)),
     Binding::new(BOUNCES, "View: light after some bounces", |model| view(model, View::Bounces)),
     Binding::new(FORM_FACTORS, "View: form factors from the picked patch", |model| view(model, View::FormFactors)),
+    Binding::new(PHOTONS, "View: photons", |model| view(model, View::Photons)),
+    Binding::new(KD_TREE, "View: photons and their kd-tree", |model| view(model, View::KdTree)),
+    Binding::new(PHOTON_IRRADIANCE, "View: irradiance from photons", |model| {
+        view(model, View::Camera(CameraView::PhotonIrradiance))
+    }),
+    Binding::new(PHOTON_RADIANCE, "View: radiance from photons", |model| {
+        view(model, View::Camera(CameraView::PhotonRadiance))
+    }),
+    Binding::new(CAUSTICS, "View: caustics", |model| view(model, View::Camera(CameraView::Caustics))),
+    Binding::new(RAY_TRACED, "View: ray-traced", |model| view(model, View::Camera(CameraView::RayTraced))),
+    Binding::new(RADIOSITY_SPECULAR, "View: radiosity with specular surfaces traced", |model| {
+        view(model, View::Camera(CameraView::RadiositySpecular))
+    }),
+    Binding::new(FINAL_GATHER, "View: final gather", |model| view(model, View::Camera(CameraView::FinalGather))),
     Binding::new(WIREFRAME, "Show or hide the elements' edges", |model| {
         Some(Action::SetLook(Look { wireframe: !model.look.wireframe, ..model.look }))
     }),
@@ -106,6 +129,14 @@ pub fn of_view(view: View) -> KeyboardShortcut {
         View::Absorbed => ABSORBED,
         View::Bounces => BOUNCES,
         View::FormFactors => FORM_FACTORS,
+        View::Photons => PHOTONS,
+        View::KdTree => KD_TREE,
+        View::Camera(CameraView::PhotonIrradiance) => PHOTON_IRRADIANCE,
+        View::Camera(CameraView::PhotonRadiance) => PHOTON_RADIANCE,
+        View::Camera(CameraView::Caustics) => CAUSTICS,
+        View::Camera(CameraView::RayTraced) => RAY_TRACED,
+        View::Camera(CameraView::RadiositySpecular) => RADIOSITY_SPECULAR,
+        View::Camera(CameraView::FinalGather) => FINAL_GATHER,
     }
 }
 

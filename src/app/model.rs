@@ -9,7 +9,7 @@ use crate::math::rgb::Rgb64;
 use crate::methods::{Settings, Solver};
 use crate::scene::{Finding, FindingKind};
 use crate::solution::Solution;
-use crate::viewport::{Exposure, Legend, ToneCurve, View};
+use crate::viewport::{Exposure, Legend, PhotonLook, ToneCurve, View};
 use crate::worker::{CheckReport, Curve, Phase, Snapshot};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -151,6 +151,7 @@ pub struct Look {
     pub wireframe: bool,
     /// Outlines the patch that shot last.
     pub show_shooter: bool,
+    pub photons: PhotonLook,
     pub exposure: Exposure,
     pub tone: ToneCurve,
 }
@@ -163,6 +164,7 @@ impl Default for Look {
             ambient: false,
             wireframe: false,
             show_shooter: true,
+            photons: PhotonLook::default(),
             exposure: Exposure::Automatic,
             tone: ToneCurve::default(),
         }

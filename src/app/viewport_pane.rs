@@ -3,7 +3,7 @@
 use super::action::CameraMove;
 use super::model::Look;
 use crate::camera::{Camera, Flight};
-use crate::solution::{Picked, Solution};
+use crate::solution::PathFilter;
 use crate::viewport::{Frame, Gpu, Light, Viewport, automatic_exposure, pick_patch};
 use crate::worker::Snapshot;
 use crate::world::World;
@@ -66,10 +66,10 @@ impl ViewportPane {
             self.world = Some(Arc::clone(world));
             self.light = None;
         }
-        if let Some(solution) = snapshot.solution.as_ref().filter(|solution| !self.shows(solution, &snapshot.picked)) {
-            let light = Light { solution: Arc::clone(solution), picked: snapshot.picked.clone() };
+        let light = light_of(snapshot);
+        if self.light.as_ref().is_none_or(|shown| !is_same_light(shown, &light)) {
             viewport.set_light(&light);
-            self.automatic_ev = automatic_exposure(world, solution);
+            self.automatic_ev = automatic_exposure(world, light.solution.as_deref());
             self.light = Some(light);
         }
         if is_other_scene {
@@ -77,13 +77,6 @@ impl ViewportPane {
             self.flight = None;
         }
         is_other_scene
-    }
-
-    fn shows(&self, solution: &Arc<Solution>, picked: &Option<Arc<Picked>>) -> bool {
-        let address = |picked: &Option<Arc<Picked>>| picked.as_ref().map(Arc::as_ptr);
-        let is_on_show =
-            |light: &Light| Arc::ptr_eq(&light.solution, solution) && address(&light.picked) == address(picked);
-        self.light.as_ref().is_some_and(is_on_show)
     }
 
     /// The exposure that `look` asks for, in EV.
@@ -120,7 +113,7 @@ impl ViewportPane {
     }
 
     /// What a picture of this size shows now; `None` while no scene is open.
-    pub fn frame(&self, look: &Look, size: [u32; 2]) -> Option<Frame> {
+    pub fn frame(&self, look: &Look, filter: PathFilter, size: [u32; 2]) -> Option<Frame> {
         Some(Frame {
             camera: self.camera?,
             size,
@@ -129,6 +122,8 @@ impl ViewportPane {
             ambient: look.ambient,
             wireframe: look.wireframe,
             show_shooter: look.show_shooter,
+            photons: look.photons,
+            filter,
             exposure_ev: self.exposure_ev(look),
             tone: look.tone,
         })
@@ -147,15 +142,40 @@ impl ViewportPane {
     }
 
     /// Has the scene painted into `rect`.
-    pub fn paint(&mut self, ui: &Ui, rect: Rect, look: &Look) {
+    pub fn paint(&mut self, ui: &Ui, rect: Rect, look: &Look, filter: PathFilter) {
         // As egui rounds it: the edges go to whole pixels, not the size.
         let [min, max] = [rect.min, rect.max].map(|corner| corner.to_vec2() * ui.pixels_per_point());
         let pixels = (max.round() - min.round()).max(Vec2::splat(1.0));
         self.size = [pixels.x as u32, pixels.y as u32];
-        if let Some(frame) = self.frame(look, self.size) {
+        if let Some(frame) = self.frame(look, filter, self.size) {
             ui.painter().add(Callback::new_paint_callback(rect, ScenePainter { frame }));
         }
     }
+}
+
+/// All that a snapshot knows of the light in its world.
+fn light_of(snapshot: &Snapshot) -> Light {
+    Light {
+        solution: snapshot.solution.clone(),
+        picked: snapshot.picked.clone(),
+        photons: snapshot.photons.clone(),
+        image: snapshot.image.clone(),
+        trail: snapshot.trail.clone(),
+        gathered: snapshot.gathered.clone(),
+    }
+}
+
+/// Whether two share every part.
+fn is_same_light(one: &Light, other: &Light) -> bool {
+    fn is_shared<T>(one: &Option<Arc<T>>, other: &Option<Arc<T>>) -> bool {
+        one.as_ref().map(Arc::as_ptr) == other.as_ref().map(Arc::as_ptr)
+    }
+    is_shared(&one.solution, &other.solution)
+        && is_shared(&one.picked, &other.picked)
+        && is_shared(&one.photons, &other.photons)
+        && is_shared(&one.image, &other.image)
+        && is_shared(&one.trail, &other.trail)
+        && is_shared(&one.gathered, &other.gathered)
 }
 
 fn is_same<T>(shown: &Option<Arc<T>>, new: &Arc<T>) -> bool {

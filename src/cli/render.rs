@@ -8,10 +8,11 @@ use crate::cancel::Cancel;
 use crate::choice::{self, Choice};
 use crate::methods::{Solver, radiosity};
 use crate::scene::Viewpoint;
-use crate::solution::Picked;
+use crate::solution::{PathFilter, Picked};
 use crate::viewport::diagram::{self, Diagram, MatrixDiagram};
 use crate::viewport::{
-    AdapterChoice, Exposure, Frame, Gpu, Legend, Light, Picture, ToneCurve, View, pick_patch, render_picture,
+    AdapterChoice, Exposure, Frame, Gpu, Legend, Light, PhotonLook, Picture, ToneCurve, View, pick_patch,
+    render_picture,
 };
 use crate::world::World;
 use clap::CommandFactory;
@@ -156,10 +157,10 @@ impl Options {
         // Whether there is something to draw with is told before the time is spent.
         let gpu = Gpu::new(&self.adapter)?;
         let (solved, light) = self.solve()?;
-        if let Some(reason) = view.missing(&light.solution, light.picked.as_deref()) {
+        if let Some(reason) = view.missing(&light) {
             return Err(CliError::Missing(reason));
         }
-        let kept = light.solution.bounces.len();
+        let kept = solved.solution.bounces.len();
         if view == View::Bounces && self.bounce >= kept {
             return Err(CliError::NoSuchBounce { kept: kept - 1 });
         }
@@ -173,7 +174,9 @@ impl Options {
             ambient: self.ambient,
             wireframe: self.wireframe,
             show_shooter: false,
-            exposure_ev: exposure.ev(world, solution),
+            photons: PhotonLook::default(),
+            filter: PathFilter::default(),
+            exposure_ev: exposure.ev(world, Some(solution)),
             tone: self.tone,
         };
         let picture = render_picture(&gpu, world, &light, &frame, self.samples)?;
@@ -195,7 +198,7 @@ impl Options {
         let missing = || CliError::Missing(diagram.remedy());
         let (picture, report) = match diagram {
             Diagram::Matrix => {
-                let matrix = light.solution.matrix.as_ref().ok_or_else(missing)?;
+                let matrix = solved.solution.matrix.as_ref().ok_or_else(missing)?;
                 let MatrixDiagram { picture, legend, zeros } = diagram::matrix(matrix, limit);
                 let legend = legend.map(|legend| json!({ "low": legend.low, "high": legend.high }));
                 let zeros = zeros.map(|zero| json!({ "reason": zero.label, "share": zero.share }));
@@ -215,7 +218,7 @@ impl Options {
         let world = self.run.open()?;
         let picked = self.picked(&world)?;
         let solved = self.run.solve_in(world)?;
-        let light = Light { solution: Arc::new(solved.solution.clone()), picked };
+        let light = Light { picked, ..Light::from(solved.solution.clone()) };
         Ok((solved, light))
     }
 

@@ -19,7 +19,7 @@ pub enum Exposure {
 
 impl Exposure {
     /// The exposure in stops.
-    pub fn ev(self, world: &World, solution: &Solution) -> f32 {
+    pub fn ev(self, world: &World, solution: Option<&Solution>) -> f32 {
         match self {
             Self::Automatic => automatic_exposure(world, solution),
             Self::Manual(ev) => ev,
@@ -66,19 +66,19 @@ impl Choice for ToneCurve {
 /// What the mean radiance of a picture is shown as.
 const MID_GREY: f64 = 0.18;
 
-/// The exposure in stops at which the surfaces that do not emit will be mid grey on average, once all light is shot; all
-/// surfaces, where all emit.
+/// The exposure in stops at which the surfaces that do not emit will be mid grey on average, once all light is there; all
+/// surfaces, where all emit. One for all views of a scene, so that they can be compared.
 ///
 /// It foresees the end by the ambient term of Cohen, Chen, Wallace and Greenberg (1988), so it hardly changes while light
-/// spreads: brightness is seen to grow. 0 where there is no light.
-pub fn automatic_exposure(world: &World, solution: &Solution) -> f32 {
+/// spreads: brightness is seen to grow. Without a radiosity solution all light is still to come. 0 where there is no light.
+pub fn automatic_exposure(world: &World, solution: Option<&Solution>) -> f32 {
     let mean_radiance = f64::from(luminance(expected_radiosity(world, solution).as_vec3())) / PI;
     if mean_radiance > 0.0 { (MID_GREY / mean_radiance).log2() as f32 } else { 0.0 }
 }
 
 /// The mean radiosity [W/m²] that elements without emission will have in the end: what they have now, and what they will
 /// reflect of the ambient light.
-fn expected_radiosity(world: &World, solution: &Solution) -> Rgb64 {
+fn expected_radiosity(world: &World, solution: Option<&Solution>) -> Rgb64 {
     let mut dark = Surfaces::default();
     let mut bright = Surfaces::default();
     for patch in &world.mesh.patches {
@@ -86,8 +86,15 @@ fn expected_radiosity(world: &World, solution: &Solution) -> Rgb64 {
         let surfaces = if material.is_emitter() { &mut bright } else { &mut dark };
         surfaces.area += patch.area;
         surfaces.reflecting += patch.area * material.diffuse.as_dvec3();
-        for index in patch.elements.start as usize..patch.elements.end as usize {
-            surfaces.flux += world.mesh.elements[index].area * solution.light.radiosity[index].as_dvec3();
+        match solution {
+            Some(solution) => {
+                for index in patch.elements.start as usize..patch.elements.end as usize {
+                    surfaces.flux += world.mesh.elements[index].area * solution.light.radiosity[index].as_dvec3();
+                }
+            }
+            // Fronts shine.
+            None if patch.is_front => surfaces.flux += patch.area * material.exitance().as_dvec3(),
+            None => {}
         }
     }
     let all = Surfaces {
@@ -98,8 +105,9 @@ fn expected_radiosity(world: &World, solution: &Solution) -> Rgb64 {
     if all.area == 0.0 {
         return Rgb64::ZERO;
     }
+    let ambient = solution.map_or_else(|| all.ambient(), |solution| solution.ambient.as_dvec3());
     let seen = if dark.area > 0.0 { &dark } else { &all };
-    (seen.flux + seen.reflecting * solution.ambient.as_dvec3()) / seen.area
+    (seen.flux + seen.reflecting * ambient) / seen.area
 }
 
 /// Sums over some surfaces.
@@ -111,4 +119,11 @@ struct Surfaces {
     reflecting: Rgb64,
     /// B A, W
     flux: Rgb64,
+}
+
+impl Surfaces {
+    /// The mean irradiance that their flux will bring with all its reflections if it spreads evenly, W/m².
+    fn ambient(&self) -> Rgb64 {
+        self.flux / (self.area - self.reflecting)
+    }
 }

@@ -4,9 +4,13 @@ use super::colour_map::GREY;
 use super::{Frame, Legend, Light, View};
 use crate::math::rgb::Rgb;
 use crate::mesh::{Mesh, Patch};
+use crate::solution::Solution;
 use crate::world::World;
 use glam::Vec3A;
 use std::borrow::Cow;
+
+/// Of plain surfaces behind photons, so that these stand out.
+const DIMMED: f32 = 0.12;
 
 /// What the values of elements are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,16 +38,17 @@ impl<'a> Shading<'a> {
     }
 
     fn of_view(world: &World, light: &'a Light, frame: &Frame) -> Option<Self> {
-        let solution = &light.solution;
+        let solution = light.solution.as_deref();
         let constant = |values| Self { values, quantity: Quantity::FluxDensity, is_smooth: false };
         let smooth = |values| Self { is_smooth: true, ..constant(values) };
         Some(match frame.view {
-            View::Patches => constant(radiosity(world, light, frame.ambient)),
-            View::Smooth => smooth(radiosity(world, light, frame.ambient)),
-            View::Unshot => constant(Cow::Borrowed(&solution.light.unshot)),
-            View::Absorbed => constant(Cow::Owned(absorbed(world, light))),
+            View::Patches => constant(radiosity(world, solution?, frame.ambient)),
+            View::Smooth => smooth(radiosity(world, solution?, frame.ambient)),
+            View::Unshot => constant(Cow::Borrowed(&solution?.light.unshot)),
+            View::Absorbed => constant(Cow::Owned(absorbed(world, solution?))),
             View::Bounces => {
-                let bounce = solution.bounces.get(frame.bounce).or(solution.bounces.last())?;
+                let bounces = &solution?.bounces;
+                let bounce = bounces.get(frame.bounce).or(bounces.last())?;
                 smooth(Cow::Borrowed(bounce))
             }
             View::FormFactors => {
@@ -54,6 +59,11 @@ impl<'a> Shading<'a> {
                     _ => plain(patch),
                 })
             }
+            View::Photons | View::KdTree => {
+                light.photons.as_ref()?;
+                Self::colours(world, |_, patch| DIMMED * plain(patch))
+            }
+            View::Camera(_) => return None,
         })
     }
 
@@ -67,8 +77,7 @@ impl<'a> Shading<'a> {
 }
 
 /// B, and if asked for what the ambient term adds to it, W/m².
-fn radiosity<'a>(world: &World, light: &'a Light, with_ambient: bool) -> Cow<'a, [Rgb]> {
-    let solution = &light.solution;
+fn radiosity<'a>(world: &World, solution: &'a Solution, with_ambient: bool) -> Cow<'a, [Rgb]> {
     let radiosity = &solution.light.radiosity;
     if !with_ambient {
         return Cow::Borrowed(radiosity);
@@ -78,8 +87,8 @@ fn radiosity<'a>(world: &World, light: &'a Light, with_ambient: bool) -> Cow<'a,
 }
 
 /// (1 − ρ) E of each element, W/m².
-fn absorbed(world: &World, light: &Light) -> Vec<Rgb> {
-    let irradiance = &light.solution.light.irradiance;
+fn absorbed(world: &World, solution: &Solution) -> Vec<Rgb> {
+    let irradiance = &solution.light.irradiance;
     irradiance.iter().zip(reflectance(world)).map(|(&irradiance, rho)| (Rgb::ONE - rho) * irradiance).collect()
 }
 

@@ -1,9 +1,9 @@
 //! What a picture shows, and from where.
 
-use super::ToneCurve;
+use super::{PhotonLook, ToneCurve};
 use crate::camera::Camera;
 use crate::choice::Choice;
-use crate::solution::{Picked, Solution};
+use crate::solution::{CameraImage, CameraView, Gathered, PathFilter, PhotonSolution, PhotonTrail, Picked, Solution};
 use std::sync::Arc;
 
 /// Which quantity is drawn, and how it varies over an element.
@@ -23,30 +23,66 @@ pub enum View {
     Bounces,
     /// The form factor from the picked patch to every patch, in false colours.
     FormFactors,
+    /// Where photons landed, in front of dark surfaces.
+    Photons,
+    /// The same, and the planes that divide them for looking them up.
+    KdTree,
+    /// A picture that was made from the camera, pixel by pixel.
+    Camera(CameraView),
 }
 
 impl View {
     /// What is missing for this view and how to get it; `None` where it can be drawn. What cannot be drawn is shown in
     /// plain grey.
-    pub fn missing(self, solution: &Solution, picked: Option<&Picked>) -> Option<&'static str> {
+    pub fn missing(self, light: &Light) -> Option<&'static str> {
+        let has_photons = light.photons.as_ref().is_some_and(|photons| !photons.photons.is_empty());
         match self {
-            Self::Bounces if solution.bounces.is_empty() => {
+            Self::Photons | Self::KdTree => (!has_photons).then_some("There are no photons yet: press Run"),
+            Self::Camera(view) if light.image_of(view).is_some() => None,
+            Self::Camera(view) if view.needs_photons() && !has_photons => {
+                Some("This picture is read off photons, and there are none yet: press Run")
+            }
+            Self::Camera(view) if view.needs_radiosity() && light.solution.is_none() => {
+                Some("This picture is read off a radiosity solution, and there is none yet: press Run")
+            }
+            Self::Camera(_) => Some("The picture from this camera is not there yet"),
+            Self::FormFactors if light.picked.is_none() => Some("Click a patch to see the form factors from it"),
+            Self::FormFactors => None,
+            Self::Bounces if light.solution.as_ref().is_none_or(|solution| solution.bounces.is_empty()) => {
                 Some("Only the Jacobi solver keeps the light of every bounce: choose it and run")
             }
-            Self::FormFactors if picked.is_none() => Some("Click a patch to see the form factors from it"),
-            _ => None,
+            _ => light.solution.is_none().then_some("There is no radiosity solution yet: press Run"),
         }
     }
 
     /// Whether colours stand for numbers. Exposure and tone curve do not change them.
     pub fn is_false_colour(self) -> bool {
-        self == Self::FormFactors
+        matches!(self, Self::FormFactors) || self.shows_photons()
+    }
+
+    /// Whether single photons are drawn.
+    pub fn shows_photons(self) -> bool {
+        matches!(self, Self::Photons | Self::KdTree)
     }
 }
 
 impl Choice for View {
-    const ALL: &'static [Self] =
-        &[Self::Patches, Self::Smooth, Self::Unshot, Self::Absorbed, Self::Bounces, Self::FormFactors];
+    const ALL: &'static [Self] = &[
+        Self::Patches,
+        Self::Smooth,
+        Self::Unshot,
+        Self::Absorbed,
+        Self::Bounces,
+        Self::FormFactors,
+        Self::Photons,
+        Self::KdTree,
+        Self::Camera(CameraView::PhotonIrradiance),
+        Self::Camera(CameraView::PhotonRadiance),
+        Self::Camera(CameraView::Caustics),
+        Self::Camera(CameraView::RayTraced),
+        Self::Camera(CameraView::RadiositySpecular),
+        Self::Camera(CameraView::FinalGather),
+    ];
     const KIND: &'static str = "view";
 
     fn name(self) -> &'static str {
@@ -57,6 +93,9 @@ impl Choice for View {
             Self::Absorbed => "absorbed",
             Self::Bounces => "bounces",
             Self::FormFactors => "form-factors",
+            Self::Photons => "photons",
+            Self::KdTree => "kd-tree",
+            Self::Camera(view) => view.name(),
         }
     }
 
@@ -68,6 +107,9 @@ impl Choice for View {
             Self::Absorbed => "Absorbed",
             Self::Bounces => "Bounces",
             Self::FormFactors => "Form factors",
+            Self::Photons => "Photons",
+            Self::KdTree => "kd-tree",
+            Self::Camera(view) => view.label(),
         }
     }
 
@@ -79,20 +121,39 @@ impl Choice for View {
             Self::Absorbed => "Light that stays in the surface, as bright as if it were sent on",
             Self::Bounces => "Light after a number of bounces: the partial sums of Neumann's series",
             Self::FormFactors => "Which share of its light a picked patch sends to every other, in false colours",
+            Self::Photons => "Where photons landed, each a point",
+            Self::KdTree => "The planes that divide the photons so that the nearest ones are found fast",
+            Self::Camera(view) => view.meaning(),
         }
     }
 }
 
-/// The light of a world, and what its picked patch sees.
-#[derive(Clone, Debug)]
+/// What is known of the light in a world. What a view needs of it may be missing: see [`View::missing`].
+#[derive(Clone, Debug, Default)]
 pub struct Light {
-    pub solution: Arc<Solution>,
+    /// Radiosity, element by element.
+    pub solution: Option<Arc<Solution>>,
+    /// What the picked patch sees.
     pub picked: Option<Arc<Picked>>,
+    pub photons: Option<Arc<PhotonSolution>>,
+    /// The picture from a camera that was made last.
+    pub image: Option<Arc<CameraImage>>,
+    /// The way of the picked photon.
+    pub trail: Option<Arc<PhotonTrail>>,
+    /// What the estimate at the picked point is made of.
+    pub gathered: Option<Arc<Gathered>>,
+}
+
+impl Light {
+    /// The picture from a camera, if it is of this view.
+    pub fn image_of(&self, view: CameraView) -> Option<&Arc<CameraImage>> {
+        self.image.as_ref().filter(|image| image.view == view)
+    }
 }
 
 impl From<Solution> for Light {
     fn from(solution: Solution) -> Self {
-        Self { solution: Arc::new(solution), picked: None }
+        Self { solution: Some(Arc::new(solution)), ..Self::default() }
     }
 }
 
@@ -112,6 +173,10 @@ pub struct Frame {
     pub wireframe: bool,
     /// Whether the patch that shot last is outlined. A picked patch is outlined instead of it, in every view.
     pub show_shooter: bool,
+    /// How single photons are drawn.
+    pub photons: PhotonLook,
+    /// Which photons are drawn, by the path of light that they would make if the eye saw them land.
+    pub filter: PathFilter,
     /// In stops; see [`super::Exposure`].
     pub exposure_ev: f32,
     pub tone: ToneCurve,
@@ -120,7 +185,11 @@ pub struct Frame {
 impl Frame {
     /// The patch that is outlined, if any.
     pub(super) fn outlined(&self, light: &Light) -> Option<u32> {
+        if self.view.shows_photons() {
+            return None;
+        }
         let picked = light.picked.as_ref().map(|picked| picked.patch);
-        picked.or_else(|| light.solution.shooter.filter(|_| self.show_shooter && self.view != View::FormFactors))
+        let shooter = || light.solution.as_ref().and_then(|solution| solution.shooter);
+        picked.or_else(|| shooter().filter(|_| self.show_shooter && self.view != View::FormFactors))
     }
 }

@@ -5,6 +5,7 @@ use crate::methods::Settings;
 use crate::scene::Scene;
 use crate::solution::CameraView;
 use crate::world::World;
+use glam::Vec3;
 use std::fmt;
 use std::sync::Arc;
 
@@ -27,6 +28,10 @@ pub enum Command {
     Reset,
     /// Computes what this patch sees, or forgets about it. Without effect if another world is on show by then.
     Pick(Option<Place>),
+    /// Traces the way of a photon again, by its index among those on show, or forgets about it.
+    PickPhoton(Option<u32>),
+    /// Says what the estimate of irradiance at a spot is made of, or forgets about it.
+    Gather(Option<Spot>),
     /// Says what is on show: it is worked on first, and a picture from a camera is made anew where anything of it changed.
     Look(Sight),
 }
@@ -48,6 +53,15 @@ pub enum Subject {
     Radiosity,
     Photons,
     Camera(CameraView),
+}
+
+/// A point of a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spot {
+    /// On the surface, m.
+    pub point: Vec3,
+    /// Unit normal on the side that is looked at.
+    pub normal: Vec3,
 }
 
 /// A patch of a world.

@@ -42,8 +42,8 @@ impl Mailbox {
         if opens_a_scene(&command) || matches!(command, Command::Configure(_)) {
             self.mesh.request();
         }
-        // More steps can wait for the one under way, and what a patch sees is computed between steps.
-        if !matches!(command, Command::Step(_) | Command::Pick(_)) {
+        // More steps can wait for the one under way, and what is picked is looked into between steps.
+        if !matches!(command, Command::Step(_) | Command::Pick(_) | Command::PickPhoton(_) | Command::Gather(_)) {
             self.step.request();
         }
         merge(&mut queue.commands, command);
@@ -123,6 +123,8 @@ fn merge(commands: &mut VecDeque<Command>, new: Command) {
             commands.retain(|old| !matches!(old, Command::Run | Command::Pause | Command::Step(_) | Command::Reset));
         }
         Command::Pick(_) => commands.retain(|old| !matches!(old, Command::Pick(_))),
+        Command::PickPhoton(_) => commands.retain(|old| !matches!(old, Command::PickPhoton(_))),
+        Command::Gather(_) => commands.retain(|old| !matches!(old, Command::Gather(_))),
         Command::Look(_) => commands.retain(|old| !matches!(old, Command::Look(_))),
         Command::AddCeilingLight => {}
     }
@@ -149,6 +151,11 @@ mod tests {
         assert_eq!(merged([Command::Run, Command::Pause, Command::Run]), [Command::Run]);
         assert_eq!(merged([Command::Step(1), Command::Step(10)]), [Command::Step(11)]);
         assert_eq!(merged([Command::Run, Command::Step(5), Command::Reset]), [Command::Reset]);
+        let photons = [Some(7), None].map(Command::PickPhoton);
+        assert_eq!(
+            merged([photons[0].clone(), Command::Gather(None), photons[1].clone()]),
+            [Command::Gather(None), Command::PickPhoton(None)]
+        );
         let load = Command::Load("furnace".to_owned());
         assert_eq!(merged([with_seed(1), Command::Run, load.clone()]), [with_seed(1), load]);
     }

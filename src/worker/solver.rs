@@ -97,7 +97,7 @@ impl Solver {
             Command::Pause => self.pause(),
             Command::Reset => self.restart(),
             Command::Pick(place) => self.pick(place),
-            Command::Look(_) => {}
+            Command::PickPhoton(_) | Command::Gather(_) | Command::Look(_) => {}
         }
     }
 

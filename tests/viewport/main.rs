@@ -13,8 +13,8 @@ use lightwell::cancel::Cancel;
 use lightwell::math::rgb::Rgb;
 use lightwell::mesh::{Element, MeshSettings};
 use lightwell::scene::{Material, Polygon, Scene, Source, Viewpoint};
-use lightwell::solution::{Closure, Counters, ElementLight, Energy, Solution};
-use lightwell::viewport::{AdapterChoice, Frame, Gpu, Light, Picture, ToneCurve, View};
+use lightwell::solution::{Closure, Counters, ElementLight, Energy, PathFilter, Solution};
+use lightwell::viewport::{AdapterChoice, Frame, Gpu, Light, PhotonLook, Picture, ToneCurve, View};
 use lightwell::world::World;
 use std::sync::Arc;
 use std::time::Duration;
@@ -116,6 +116,8 @@ fn frame(world: &World, view: View) -> Frame {
         ambient: false,
         wireframe: false,
         show_shooter: false,
+        photons: PhotonLook::default(),
+        filter: PathFilter::default(),
         exposure_ev: -3.0,
         tone: ToneCurve::Filmic,
     }

@@ -103,7 +103,7 @@ fn form_factors_have_the_colours_of_their_legend_whatever_the_exposure() {
     let Some(gpu) = gpu() else { return };
     let world = tiles();
     let picked = picked(&world, 3);
-    let light = Light { solution: Arc::new(solution(&world, motley)), picked: Some(Arc::new(picked.clone())) };
+    let light = Light { picked: Some(Arc::new(picked.clone())), ..solution(&world, motley).into() };
     let legend = Legend::of(View::FormFactors, &light).expect("there are form factors");
     assert_eq!((legend.low, legend.high), (0.25 * 1e-4, 0.25));
     let frame = frame(&world, View::FormFactors);
@@ -137,7 +137,7 @@ fn the_picked_patch_is_outlined_and_the_shooter_is_not() {
         let solution = Solution { shooter: Some(shooter), ..solution(&world, motley) };
         let mut picked = picked(&world, patch);
         picked.form_factors.fill(0.0);
-        let light = Light { solution: Arc::new(solution), picked: Some(Arc::new(picked)) };
+        let light = Light { picked: Some(Arc::new(picked)), ..solution.into() };
         let frame = Frame { show_shooter: true, ..frame(&world, View::FormFactors) };
         render_picture(&gpu, &world, &light, &frame, 4).expect("a picture")
     };
@@ -153,13 +153,15 @@ fn a_view_without_its_data_says_so_and_is_plain() {
     let world = square();
     let without = light(&solution(&world, motley));
     let with = Light {
-        solution: Arc::new(Solution { bounces: vec![Arc::default()], ..Solution::default() }),
         picked: Some(Arc::new(picked(&world, 0))),
+        ..Solution { bounces: vec![Arc::default()], ..Solution::default() }.into()
     };
     for &view in View::ALL {
-        let needs_more = matches!(view, View::Bounces | View::FormFactors);
-        assert_eq!(view.missing(&without.solution, None).is_some(), needs_more, "{view:?}");
-        assert_eq!(view.missing(&with.solution, with.picked.as_deref()), None, "{view:?}");
+        let is_shown = |light: &Light| view.missing(light).is_none();
+        let is_radiosity = !view.shows_photons() && !matches!(view, View::Camera(_));
+        assert!(!is_shown(&Light::default()), "{view:?}");
+        assert_eq!(is_shown(&without), is_radiosity && !matches!(view, View::Bounces | View::FormFactors), "{view:?}");
+        assert_eq!(is_shown(&with), is_radiosity, "{view:?}");
     }
     let Some(gpu) = gpu() else { return };
     let render = |view, exposure_ev| {
