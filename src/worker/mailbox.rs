@@ -1,6 +1,6 @@
 //! Commands on their way to the solver thread: a queue in which the newest of a kind wins.
 
-use super::Command;
+use super::{Command, Sight};
 use crate::cancel::Cancel;
 use std::collections::VecDeque;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
@@ -20,7 +20,26 @@ pub struct Mailbox {
 #[derive(Default)]
 struct Queue {
     commands: VecDeque<Command>,
+    /// What is on show, or will be once all commands are taken.
+    sight: Option<Sight>,
     is_closed: bool,
+}
+
+impl Queue {
+    /// Whether a command cannot wait for the end of a step.
+    fn is_urgent(&mut self, command: &Command) -> bool {
+        match command {
+            // More steps can wait for the one under way, and what is picked is looked into between steps.
+            Command::Step(_) | Command::Pick(_) | Command::PickPhoton(_) | Command::Gather(_) => false,
+            // A camera that moves round meshes or photons leaves the solver nothing to do.
+            Command::Look(sight) => {
+                let old = self.sight.replace(*sight);
+                let is_new_subject = old.is_none_or(|old| old.subject != sight.subject);
+                is_new_subject || sight.subject.view().is_some() && old != Some(*sight)
+            }
+            _ => true,
+        }
+    }
 }
 
 /// What the solver finds when it looks.
@@ -42,8 +61,7 @@ impl Mailbox {
         if opens_a_scene(&command) || matches!(command, Command::Configure(_)) {
             self.mesh.request();
         }
-        // More steps can wait for the one under way, and what is picked is looked into between steps.
-        if !matches!(command, Command::Step(_) | Command::Pick(_) | Command::PickPhoton(_) | Command::Gather(_)) {
+        if queue.is_urgent(&command) {
             self.step.request();
         }
         merge(&mut queue.commands, command);
@@ -109,32 +127,64 @@ fn opens_a_scene(command: &Command) -> bool {
 /// Adds a command and drops those that it makes pointless.
 fn merge(commands: &mut VecDeque<Command>, new: Command) {
     match &new {
-        // Settings are not about one scene.
-        Command::Load(_) | Command::Show(_) => commands.retain(|old| matches!(old, Command::Configure(_))),
+        // Neither settings nor what is looked at are about one scene.
+        Command::Load(_) | Command::Show(_) => {
+            commands.retain(|old| matches!(old, Command::Configure(_) | Command::Look(_)));
+        }
         Command::Configure(_) => commands.retain(|old| !matches!(old, Command::Configure(_))),
-        Command::Run | Command::Pause => commands.retain(|old| !matches!(old, Command::Run | Command::Pause)),
+        Command::Run | Command::Pause => drop_since_look(commands, |old| matches!(old, Command::Run | Command::Pause)),
         Command::Step(more) => {
             if let Some(Command::Step(steps)) = commands.back_mut() {
                 *steps += more;
                 return;
             }
         }
-        Command::Reset => {
-            commands.retain(|old| !matches!(old, Command::Run | Command::Pause | Command::Step(_) | Command::Reset));
-        }
+        Command::Reset => drop_since_look(commands, drives_light),
         Command::Pick(_) => commands.retain(|old| !matches!(old, Command::Pick(_))),
         Command::PickPhoton(_) => commands.retain(|old| !matches!(old, Command::PickPhoton(_))),
         Command::Gather(_) => commands.retain(|old| !matches!(old, Command::Gather(_))),
-        Command::Look(_) => commands.retain(|old| !matches!(old, Command::Look(_))),
+        Command::Look(_) => {
+            let since = since_look(commands);
+            // One that says which light is driven is still needed.
+            if since > 0 && !commands.range(since..).any(drives_light) {
+                commands.remove(since - 1);
+            }
+        }
         Command::AddCeilingLight => {}
     }
     commands.push_back(new);
 }
 
+/// Whether a command is about the light of what is on show.
+fn drives_light(command: &Command) -> bool {
+    matches!(command, Command::Run | Command::Pause | Command::Step(_) | Command::Reset)
+}
+
+/// Where the commands begin that are about what was looked at last.
+fn since_look(commands: &VecDeque<Command>) -> usize {
+    commands.iter().rposition(|command| matches!(command, Command::Look(_))).map_or(0, |look| look + 1)
+}
+
+/// Drops commands of a kind that are about what was looked at last.
+fn drop_since_look(commands: &mut VecDeque<Command>, is_dropped: impl Fn(&Command) -> bool) {
+    let since = since_look(commands);
+    let mut index = 0;
+    commands.retain(|command| {
+        index += 1;
+        index <= since || !is_dropped(command)
+    });
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::camera::Camera;
+    use crate::math::bounds::Bounds;
     use crate::methods::Settings;
+    use crate::scene::Viewpoint;
+    use crate::solution::CameraView;
+    use crate::worker::Subject;
+    use glam::Vec3;
 
     fn merged(commands: impl IntoIterator<Item = Command>) -> Vec<Command> {
         let mut queue = VecDeque::new();
@@ -158,6 +208,44 @@ mod tests {
         );
         let load = Command::Load("furnace".to_owned());
         assert_eq!(merged([with_seed(1), Command::Run, load.clone()]), [with_seed(1), load]);
+    }
+
+    fn look(subject: Subject, distance: f32) -> Command {
+        let eye = distance * Vec3::Z;
+        let viewpoint = Viewpoint { eye, target: Vec3::ZERO, up: Vec3::Y, vertical_fov: 40.0 };
+        let bounds = Bounds { min: -Vec3::ONE, max: Vec3::ONE };
+        Command::Look(Sight { subject, camera: Camera::new(&viewpoint, &bounds), size: [8, 8] })
+    }
+
+    #[test]
+    fn the_newest_look_wins_and_commands_stay_with_the_light_that_they_are_about() {
+        let (photons, radiosity) = (look(Subject::Photons, 1.0), look(Subject::Radiosity, 1.0));
+        let moved = look(Subject::Radiosity, 2.0);
+        assert_eq!(merged([photons.clone(), radiosity.clone(), moved.clone()]), [moved.clone()]);
+        let both = [photons.clone(), Command::Run, moved.clone(), Command::Pause];
+        assert_eq!(
+            merged([photons.clone(), Command::Run, radiosity, moved.clone(), Command::Run, Command::Pause]),
+            both
+        );
+        assert_eq!(merged(both.clone().into_iter().chain([Command::Reset]))[..3], both[..3]);
+        let load = Command::Load("furnace".to_owned());
+        assert_eq!(merged([photons.clone(), Command::Run, load.clone()]), [photons, load]);
+    }
+
+    #[test]
+    fn a_camera_that_moves_interrupts_pictures_from_it_alone() {
+        let is_urgent = |commands: [Command; 2]| {
+            let mailbox = Mailbox::default();
+            mailbox.post(commands[0].clone());
+            mailbox.take(false);
+            mailbox.post(commands[1].clone());
+            mailbox.step_cancel().is_requested()
+        };
+        let (rays, photons) = (Subject::Camera(CameraView::RayTraced), Subject::Photons);
+        assert!(!is_urgent([look(photons, 1.0), look(photons, 2.0)]));
+        assert!(is_urgent([look(photons, 1.0), look(Subject::Radiosity, 1.0)]));
+        assert!(is_urgent([look(rays, 1.0), look(rays, 2.0)]));
+        assert!(!is_urgent([look(rays, 1.0), look(rays, 1.0)]));
     }
 
     #[test]

@@ -5,18 +5,23 @@
 
 mod checks;
 mod command;
+mod going;
 mod history;
 mod mailbox;
+mod methods;
 mod pool;
 mod run;
 mod solver;
+mod workshop;
 
 pub use checks::{CheckReport, Checks};
-pub use command::{Command, Place, Shown, Sight, Spot, Subject};
+pub use command::{Command, LightKind, Place, Shown, Sight, Spot, Subject};
 pub use history::{Curve, CurvePoint};
-pub use run::{Refused, Run};
+pub use methods::{Methods, TracedPhotons};
+pub use run::{PhotonRun, Refused, Run};
+pub use workshop::{CameraShot, ImageMethod, Lights, PhotonMethod, PhotonProgress, Workshop};
 
-use crate::methods::{Method, Settings};
+use crate::methods::Settings;
 use crate::solution::{CameraImage, Gathered, PhotonSolution, PhotonTrail, Picked, Solution};
 use crate::world::World;
 use mailbox::Mailbox;
@@ -64,9 +69,6 @@ pub enum Phase {
     Crashed,
 }
 
-/// How a run of a method begins.
-pub type StartMethod = dyn Fn(Arc<World>, &Settings) -> Result<Box<dyn Method>, Refused> + Send;
-
 /// A handle on the solver thread. Dropping it ends the thread.
 pub struct Worker {
     mailbox: Arc<Mailbox>,
@@ -96,14 +98,14 @@ impl Slot {
 impl Worker {
     /// Starts the thread. `wake` is called from it after every new snapshot.
     pub fn spawn(wake: impl Fn() + Send + Sync + 'static) -> Self {
-        Self::spawn_with(Box::new(run::start_method), wake)
+        Self::spawn_with(Methods::default(), wake)
     }
 
     /// The same with methods from elsewhere.
-    pub fn spawn_with(start_method: Box<StartMethod>, wake: impl Fn() + Send + Sync + 'static) -> Self {
+    pub fn spawn_with(workshop: impl Workshop, wake: impl Fn() + Send + Sync + 'static) -> Self {
         let mailbox = Arc::new(Mailbox::default());
         let slot = Arc::new(Slot { latest: Mutex::default(), wake: Box::new(wake) });
-        let solver = Solver::new(mailbox.clone(), slot.clone(), start_method);
+        let solver = Solver::new(mailbox.clone(), slot.clone(), workshop);
         let thread =
             std::thread::Builder::new().name("solver".to_owned()).spawn(|| pool::in_background(|| solver.serve()));
         Self { mailbox, slot, thread: Some(thread.expect("the system can start a thread")) }

@@ -1,15 +1,22 @@
 //! A method with a clock.
 
+use super::workshop::{PhotonMethod, PhotonProgress};
 use crate::cancel::Cancel;
+use crate::mesh::Patch;
 use crate::methods::radiosity::{self, FullMatrix};
-use crate::methods::{Method, Settings, Step};
-use crate::solution::{Progress, Solution};
+use crate::methods::{Method, PhotonSettings, Settings, Step};
+use crate::solution::{Photon, PhotonSolution, Progress, Solution};
 use crate::world::World;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// 2 GiB
 const CAREFUL_GUESS: u64 = 2 << 30;
+
+/// A photon where it landed is handed out and being added to at the same time, and is in a tree.
+const BYTES_PER_LANDING: u64 = 2 * size_of::<Photon>() as u64 + 40;
+/// Roulette ends photons even in a world that reflects all.
+const HIGHEST_REFLECTANCE: f64 = 0.99;
 
 /// A method at work, and the time that its steps took.
 pub struct Run {
@@ -73,6 +80,49 @@ impl Run {
     }
 }
 
+/// Photons at work, and the time that their steps took.
+pub struct PhotonRun<P> {
+    method: P,
+    elapsed: Duration,
+}
+
+impl<P: PhotonMethod> PhotonRun<P> {
+    /// A run of this method, before its first step.
+    pub fn of(method: P) -> Self {
+        Self { method, elapsed: Duration::ZERO }
+    }
+
+    /// One step on the clock.
+    pub fn step(&mut self, cancel: &Cancel) -> Step {
+        let start = Instant::now();
+        let step = self.method.step(cancel);
+        self.elapsed += start.elapsed();
+        step
+    }
+
+    /// Takes new settings over; false if they need a new run.
+    pub fn configure(&mut self, settings: &Settings) -> bool {
+        self.method.configure(settings)
+    }
+
+    pub fn progress(&self) -> PhotonProgress {
+        self.method.progress()
+    }
+
+    pub fn elapsed(&self) -> Duration {
+        self.elapsed
+    }
+
+    pub fn method(&mut self) -> &mut P {
+        &mut self.method
+    }
+
+    /// What the photons brought, with the time that it took.
+    pub fn solution(&mut self) -> PhotonSolution {
+        PhotonSolution { elapsed: self.elapsed, ..self.method.solution() }
+    }
+}
+
 /// Why a run cannot begin.
 #[derive(Debug, thiserror::Error)]
 pub enum Refused {
@@ -81,6 +131,11 @@ pub enum Refused {
          free; larger elements or progressive radiosity need less"
     )]
     Memory { patches: usize, elements: usize, needed_mib: u64, available_mib: u64 },
+    #[error(
+        "{photons} photons are expected to land {landings} times and then need {needed_mib} MiB, and {available_mib} MiB \
+         are free; fewer photons need less"
+    )]
+    Photons { photons: u64, landings: u64, needed_mib: u64, available_mib: u64 },
 }
 
 /// The method that the settings ask for.
@@ -101,6 +156,29 @@ pub fn start_method(world: Arc<World>, settings: &Settings) -> Result<Box<dyn Me
         }
     }
     Ok(radiosity::start(world, settings))
+}
+
+/// Whether there is room for the photons of a pass.
+///
+/// # Errors
+/// If there is not.
+pub fn check_photons(world: &World, settings: &PhotonSettings) -> Result<(), Refused> {
+    let photons = u64::from(settings.count) + u64::from(settings.caustic_count);
+    let landings = (photons as f64 * landings_per_photon(world)) as u64;
+    let (needed, available) = (landings.saturating_mul(BYTES_PER_LANDING), available_memory());
+    if needed > available {
+        return Err(Refused::Photons { photons, landings, needed_mib: needed >> 20, available_mib: available >> 20 });
+    }
+    Ok(())
+}
+
+/// How often a photon lands on diffuse surfaces until one absorbs it, where it meets all of them alike: Σ ρⁿ.
+fn landings_per_photon(world: &World) -> f64 {
+    let materials = &world.scene.materials;
+    let reflectance = |patch: &Patch| f64::from(materials[patch.material as usize].lobes().diffuse.max_element());
+    let area = world.mesh.area();
+    let reflected: f64 = world.mesh.patches.iter().map(|patch| patch.area * reflectance(patch)).sum();
+    if area > 0.0 { 1.0 / (1.0 - (reflected / area).min(HIGHEST_REFLECTANCE)) } else { 1.0 }
 }
 
 /// Bytes that can be had without pushing anything out of memory, or a careful guess where the system does not say.

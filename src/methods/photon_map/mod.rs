@@ -17,13 +17,12 @@ mod tree;
 pub use density::Estimate;
 pub use maps::{PhotonFilter, PhotonMaps, Scratch, Which};
 pub use points::ProgressivePoints;
-pub use trail::trail;
 
 use crate::cancel::{Cancel, Cancelled};
 use crate::math::rgb::Rgb;
 use crate::methods::transport::Transport;
 use crate::methods::{PhotonSettings, Settings, Step};
-use crate::solution::{Photon, PhotonSolution};
+use crate::solution::{Photon, PhotonSolution, PhotonTrail};
 use batch::Batch;
 use ground::Ground;
 use maps::{Gathering, Stock, Trees};
@@ -32,6 +31,7 @@ use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 use tally::Tally;
 use trace::{MapKind, Shower};
+pub use trail::trail;
 
 /// Photons of a batch, unless they bounce for long.
 const BATCH: u64 = 1 << 14;
@@ -150,7 +150,7 @@ impl PhotonMapping {
         let maps = if is_complete { Some(self.maps()) } else { self.maps.get().cloned() };
         PhotonSolution {
             batches: self.batches,
-            passes: self.pass + u64::from(is_complete),
+            passes: self.passes(),
             elapsed: Duration::ZERO,
             is_complete,
             photons: self.photons.clone(),
@@ -166,6 +166,12 @@ impl PhotonMapping {
         self.maps
             .get_or_init(|| Arc::new(PhotonMaps { trees: Arc::new(self.trees()), gathering: self.gathering() }))
             .clone()
+    }
+
+    /// The whole way of a photon of the present pass.
+    pub fn trail(&self, photon: &Photon) -> PhotonTrail {
+        let is_caustic = self.has_caustic_map && photon.path.is_caustic();
+        trail(&self.transport, &self.settings, self.pass, photon.emission, is_caustic)
     }
 
     fn trees(&self) -> Trees {
@@ -242,7 +248,18 @@ impl PhotonMapping {
         }
     }
 
-    fn is_pass_complete(&self) -> bool {
+    /// Batches of the present pass.
+    pub fn batches(&self) -> u64 {
+        self.batches
+    }
+
+    /// Passes that are done.
+    pub fn passes(&self) -> u64 {
+        self.pass + u64::from(self.is_pass_complete())
+    }
+
+    /// Whether all photons of the present pass are there.
+    pub fn is_pass_complete(&self) -> bool {
         self.position == self.length()
     }
 

@@ -1,0 +1,140 @@
+//! The methods of this program, as the solver thread works with them.
+
+use super::Refused;
+use super::run::{check_photons, start_method};
+use super::workshop::{CameraShot, ImageMethod, Lights, PhotonMethod, PhotonProgress, Workshop};
+use crate::cancel::Cancel;
+use crate::methods::image::{ImageRun, Sources};
+use crate::methods::photon_map::{PhotonMapping, PhotonMaps};
+use crate::methods::transport::{Surface, Transport};
+use crate::methods::{Method, Settings, Step};
+use crate::solution::{CameraImage, Gathered, Photon, PhotonSolution, PhotonTrail};
+use crate::tracer::Ray;
+use crate::world::World;
+use glam::Vec3A;
+use std::sync::{Arc, Weak};
+
+/// A point lies on a surface that is nearer than this share of the scene's radius.
+const ON_SURFACE: f32 = 1e-3;
+
+/// The methods of this program.
+#[derive(Default)]
+pub struct Methods {
+    /// Shared by all that trace rays through a world, for as long as one of them does.
+    transport: Weak<Transport>,
+}
+
+impl Methods {
+    fn transport(&mut self, world: &Arc<World>) -> Arc<Transport> {
+        let known = self.transport.upgrade().filter(|transport| Arc::ptr_eq(&transport.world, world));
+        known.unwrap_or_else(|| {
+            let transport = Arc::new(Transport::new(world.clone()));
+            self.transport = Arc::downgrade(&transport);
+            transport
+        })
+    }
+
+    fn sources(&mut self, lights: Lights<'_, TracedPhotons>) -> Sources {
+        Sources { transport: self.transport(lights.world), radiosity: lights.radiosity }
+    }
+}
+
+impl Workshop for Methods {
+    type Photons = TracedPhotons;
+    type Image = ImageRun;
+
+    fn radiosity(&mut self, world: &Arc<World>, settings: &Settings) -> Result<Box<dyn Method>, Refused> {
+        start_method(world.clone(), settings)
+    }
+
+    fn photons(&mut self, world: &Arc<World>, settings: &Settings) -> Result<TracedPhotons, Refused> {
+        TracedPhotons::start(self.transport(world), settings)
+    }
+
+    fn image(&mut self, lights: Lights<'_, TracedPhotons>, shot: &CameraShot, settings: &Settings) -> ImageRun {
+        let CameraShot { view, camera, size } = *shot;
+        ImageRun::new(&self.sources(lights), view, camera, size, settings).expect("the light of the view is there")
+    }
+
+    fn go_on(&mut self, image: &mut ImageRun, lights: Lights<'_, TracedPhotons>) {
+        let is_there = image.go_on_with(&self.sources(lights));
+        debug_assert!(is_there, "the light of the view is there");
+    }
+}
+
+/// Photon mapping, with what is needed to look into it.
+pub struct TracedPhotons {
+    mapping: PhotonMapping,
+    transport: Arc<Transport>,
+}
+
+impl TracedPhotons {
+    /// Photon mapping before its first step.
+    ///
+    /// # Errors
+    /// If it needs more memory than there is.
+    pub fn start(transport: Arc<Transport>, settings: &Settings) -> Result<Self, Refused> {
+        check_photons(&transport.world, &settings.photons)?;
+        Ok(Self { mapping: PhotonMapping::new(transport.clone(), settings), transport })
+    }
+
+    /// The photons that are there, in trees.
+    pub fn maps(&self) -> Arc<PhotonMaps> {
+        self.mapping.maps()
+    }
+
+    /// The surface at a point, seen from the side that the unit `normal` faces.
+    fn surface(&self, point: Vec3A, normal: Vec3A) -> Option<Surface> {
+        let reach = ON_SURFACE * self.transport.world.bounds.radius();
+        let surface = self.transport.meet(&Ray { origin: point + reach * normal, direction: -normal })?;
+        (surface.distance <= 2.0 * reach).then_some(surface)
+    }
+}
+
+impl PhotonMethod for TracedPhotons {
+    fn step(&mut self, cancel: &Cancel) -> Step {
+        self.mapping.step(cancel)
+    }
+
+    fn configure(&mut self, settings: &Settings) -> bool {
+        self.mapping.configure(settings)
+    }
+
+    fn progress(&self) -> PhotonProgress {
+        PhotonProgress {
+            batches: self.mapping.batches(),
+            passes: self.mapping.passes(),
+            is_complete: self.mapping.is_pass_complete(),
+        }
+    }
+
+    fn solution(&mut self) -> PhotonSolution {
+        self.mapping.solution()
+    }
+
+    fn trail(&mut self, photon: &Photon) -> Option<PhotonTrail> {
+        Some(self.mapping.trail(photon))
+    }
+
+    fn gathered(&mut self, point: Vec3A, normal: Vec3A) -> Option<Gathered> {
+        Some(self.mapping.maps().gathered(&self.surface(point, normal)?))
+    }
+}
+
+impl ImageMethod for ImageRun {
+    fn step(&mut self, cancel: &Cancel) -> Step {
+        Self::step(self, cancel)
+    }
+
+    fn samples(&self) -> u32 {
+        Self::samples(self)
+    }
+
+    fn is_between_passes(&self) -> bool {
+        Self::is_between_passes(self)
+    }
+
+    fn image(&self) -> Option<CameraImage> {
+        Self::image(self)
+    }
+}

@@ -1,0 +1,162 @@
+//! Radiosity and photons: started, stepped and told of. Each has a run and a clock of its own, whichever is on show.
+
+use super::{Light, Part, Solver};
+use crate::errors::with_causes;
+use crate::methods::Step;
+use crate::solution::{PhotonSolution, Solution};
+use crate::worker::going::Going;
+use crate::worker::run::{PhotonRun, Run};
+use crate::worker::workshop::Workshop;
+use crate::worker::{LightKind, Refused};
+use crate::world::World;
+use std::sync::Arc;
+
+impl<W: Workshop> Solver<W> {
+    /// Runs the light on show, for so many steps or until it has converged.
+    pub(super) fn go(&mut self, steps: Option<u64>) {
+        let Some(kind) = self.subject().light().filter(|&kind| self.has_run(kind) && steps != Some(0)) else { return };
+        self.going_mut(kind).go(steps);
+        self.snapshot.error = None;
+        self.publish();
+    }
+
+    pub(super) fn pause(&mut self) {
+        let Some(kind) = self.subject().light().filter(|&kind| self.going(kind).is_running()) else { return };
+        self.going_mut(kind).pause();
+        self.publish_light(kind);
+    }
+
+    /// Starts the light on show over, paused, or the picture where there is no such light.
+    pub(super) fn reset(&mut self) {
+        let Some(world) = self.snapshot.world.clone() else { return };
+        let kind = self.subject().light();
+        if let Some(kind) = kind {
+            self.going_mut(kind).pause();
+            self.going_mut(kind).renew();
+        }
+        let started = match kind {
+            Some(LightKind::Radiosity) => self.start_radiosity(world),
+            Some(LightKind::Photons) => self.start_photons(&world),
+            None => Ok(()),
+        };
+        self.easel.clear();
+        self.snapshot.error = started.err().map(|refused| with_causes(&refused));
+        self.publish();
+    }
+
+    fn has_run(&self, kind: LightKind) -> bool {
+        match kind {
+            LightKind::Radiosity => self.radiosity.run.is_some(),
+            LightKind::Photons => self.photons.run.is_some(),
+        }
+    }
+
+    /// Begins radiosity on a world; if it is refused, everything stays as it was.
+    pub(super) fn start_radiosity(&mut self, world: Arc<World>) -> Result<(), Refused> {
+        let is_same_world = self.snapshot.world.as_ref().is_some_and(|old| Arc::ptr_eq(old, &world));
+        let settings = self.snapshot.settings;
+        let is_kept = is_same_world && self.radiosity.run.as_mut().is_some_and(|run| run.restart(&settings));
+        if is_kept {
+            self.radiosity.restarted();
+        } else {
+            // Should the method panic before its first step, the world on show stays, and its light with it.
+            let method = self.workshop.radiosity(&world, &settings)?;
+            self.radiosity.begin(Run::of(method));
+            self.snapshot.world = Some(world);
+        }
+        // What is picked is seen by another method now, or is gone with its world.
+        let picked = self.snapshot.picked.take().map(|picked| picked.patch);
+        self.wish = self.wish.or(picked).filter(|_| is_same_world);
+        self.history.begin(&settings);
+        if let Some(solution) = self.radiosity.run.as_ref().map(Run::solution) {
+            self.record(solution);
+        }
+        Ok(())
+    }
+
+    /// Begins photons in the world on show; if they are refused, everything stays as it was.
+    pub(super) fn start_photons(&mut self, world: &Arc<World>) -> Result<(), Refused> {
+        self.at_work = Part::Light(LightKind::Photons);
+        let method = self.workshop.photons(world, &self.snapshot.settings)?;
+        self.photons.begin(PhotonRun::of(method));
+        self.snapshot.trail = None;
+        self.record_photons();
+        Ok(())
+    }
+
+    /// Begins photons where they are needed and there are none; says so where they are refused.
+    pub(super) fn start_photons_if_needed(&mut self) {
+        let Light { run, going, .. } = &self.photons;
+        let is_needed = self.subject().light() == Some(LightKind::Photons) || going.is_running();
+        let is_there = run.is_some() || *going == Going::Crashed;
+        let Some(world) = self.snapshot.world.clone().filter(|_| is_needed && !is_there) else { return };
+        if let Err(refused) = self.start_photons(&world) {
+            self.photons.going.pause();
+            self.snapshot.error = Some(with_causes(&refused));
+        }
+    }
+
+    /// One step of a light, whether it is on show or not.
+    pub(super) fn step(&mut self, kind: LightKind) {
+        self.at_work = Part::Light(kind);
+        let cancel = self.mailbox.step_cancel();
+        let step = match kind {
+            LightKind::Radiosity => self.radiosity.run.as_mut().map(|run| run.step(cancel)),
+            LightKind::Photons => self.photons.run.as_mut().map(|run| run.step(cancel)),
+        };
+        let Some(step) = step.filter(|&step| step != Step::Cancelled) else { return };
+        let is_counted = self.going(kind).is_counted() && step != Step::Prepared;
+        if step == Step::Advanced {
+            match kind {
+                LightKind::Radiosity => {
+                    self.radiosity.steps += 1;
+                    if let Some(run) = &self.radiosity.run {
+                        self.history.record(run.progress(), run.elapsed());
+                    }
+                }
+                LightKind::Photons => self.photons.steps += 1,
+            }
+        }
+        self.going_mut(kind).note(step);
+        if is_counted || !self.going(kind).is_running() || self.is_due() {
+            self.publish_light(kind);
+        }
+    }
+
+    pub(super) fn record(&mut self, solution: Solution) {
+        self.history.record(solution.progress(), solution.elapsed);
+        self.snapshot.curves = self.history.curves().to_vec();
+        self.snapshot.solution = Some(Arc::new(solution));
+    }
+
+    pub(super) fn record_photons(&mut self) {
+        let Some(solution) = self.photons.run.as_mut().map(PhotonRun::solution) else { return };
+        let old = self.snapshot.photons.replace(Arc::new(solution));
+        // A trail is of a photon that is still there.
+        if old.map(|old| pass(&old)) != self.snapshot.photons.as_deref().map(pass) {
+            self.snapshot.trail = None;
+        }
+        self.look_into_estimate();
+    }
+
+    fn publish_light(&mut self, kind: LightKind) {
+        if !self.going(kind).is_running() {
+            // It may be complete now.
+            self.show_picture();
+        }
+        match kind {
+            LightKind::Radiosity => {
+                if let Some(solution) = self.radiosity.run.as_ref().map(Run::solution) {
+                    self.record(solution);
+                }
+            }
+            LightKind::Photons => self.record_photons(),
+        }
+        self.publish();
+    }
+}
+
+/// Which pass of photons is under way or was just finished, from 0.
+fn pass(photons: &PhotonSolution) -> u64 {
+    photons.passes - u64::from(photons.is_complete)
+}

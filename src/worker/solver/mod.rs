@@ -1,0 +1,249 @@
+//! The loop of the solver thread: what is done next, and what is told of it.
+
+mod easel;
+mod lights;
+mod picks;
+mod pictures;
+mod scenes;
+
+use super::going::Going;
+use super::history::History;
+use super::mailbox::{Mail, Mailbox};
+use super::run::{PhotonRun, Run};
+use super::workshop::Workshop;
+use super::{Command, LightKind, Phase, Sight, Slot, Snapshot, Spot, Subject};
+use crate::errors::with_causes;
+use crate::scene::Scene;
+use easel::Easel;
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// While running, snapshots are at least this far apart: 30 a second are as many as anyone sees.
+const PUBLISH_INTERVAL: Duration = Duration::from_millis(33);
+
+/// The state of the thread.
+pub struct Solver<W: Workshop> {
+    mailbox: Arc<Mailbox>,
+    slot: Arc<Slot>,
+    workshop: W,
+    /// What was published last; its parts are shared with whoever looks at it.
+    snapshot: Snapshot,
+    /// The scene that is being read, if one is.
+    loading: Option<String>,
+    sight: Option<Sight>,
+    radiosity: Light<Run>,
+    photons: Light<PhotonRun<W::Photons>>,
+    easel: Easel<W::Image>,
+    history: History,
+    /// A patch to be looked from when there is no command to serve.
+    wish: Option<u32>,
+    /// Where the estimate from photons is looked into.
+    spot: Option<Spot>,
+    /// By how much longer the light on show was worked on than the picture that is read off it, since both wanted to be.
+    lead: f64,
+    /// What is being worked on: if it panics, it alone is given up.
+    at_work: Part,
+    published: Instant,
+}
+
+/// A light and whether it is worked on.
+struct Light<R> {
+    run: Option<R>,
+    going: Going,
+    /// Counts how often it started from the emitters.
+    starts: u64,
+    /// Steps since then that brought it further.
+    steps: u64,
+}
+
+impl<R> Light<R> {
+    fn begin(&mut self, run: R) {
+        self.run = Some(run);
+        self.restarted();
+    }
+
+    fn restarted(&mut self) {
+        self.starts += 1;
+        self.steps = 0;
+    }
+}
+
+impl<R> Default for Light<R> {
+    fn default() -> Self {
+        Self { run: None, going: Going::default(), starts: 0, steps: 0 }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Part {
+    Light(LightKind),
+    Picture,
+}
+
+/// What there is to do without a command.
+enum Task {
+    LookFrom(u32),
+    Light(LightKind),
+    Picture,
+}
+
+impl<W: Workshop> Solver<W> {
+    pub fn new(mailbox: Arc<Mailbox>, slot: Arc<Slot>, workshop: W) -> Self {
+        Self {
+            mailbox,
+            slot,
+            workshop,
+            snapshot: Snapshot::default(),
+            loading: None,
+            sight: None,
+            radiosity: Light::default(),
+            photons: Light::default(),
+            easel: Easel::default(),
+            history: History::default(),
+            wish: None,
+            spot: None,
+            lead: 0.0,
+            at_work: Part::Light(LightKind::Radiosity),
+            published: Instant::now(),
+        }
+    }
+
+    /// Serves until the mailbox is closed. A panic of a method ends its run, not the thread.
+    pub fn serve(mut self) {
+        loop {
+            let task = self.next_task();
+            self.at_work = Part::Light(LightKind::Radiosity);
+            let work = match (self.mailbox.take(task.is_none()), task) {
+                (Mail::Closed, _) => return,
+                (Mail::Command(command), _) => catch_unwind(AssertUnwindSafe(|| self.apply(command))),
+                (Mail::Empty, Some(task)) => catch_unwind(AssertUnwindSafe(|| self.work(task))),
+                (Mail::Empty, None) => Ok(()),
+            };
+            if let Err(panic) = work {
+                self.crash(&*panic);
+            }
+        }
+    }
+
+    fn apply(&mut self, command: Command) {
+        match command {
+            Command::Load(name) => self.load(&name, || Scene::open(&name).map_err(|error| with_causes(&error))),
+            Command::Show(shown) => self.load(&shown.0.name, || Ok(Scene::clone(&shown.0))),
+            Command::AddCeilingLight => self.add_ceiling_light(),
+            Command::Configure(settings) => self.configure(settings),
+            Command::Run => self.go(None),
+            Command::Step(steps) => self.go(Some(steps)),
+            Command::Pause => self.pause(),
+            Command::Reset => self.reset(),
+            Command::Pick(place) => self.pick(place),
+            Command::PickPhoton(photon) => self.pick_photon(photon),
+            Command::Gather(spot) => self.gather(spot),
+            Command::Look(sight) => self.look(sight),
+        }
+    }
+
+    /// What is on show comes first: its picture and its light by turns, the first coarse picture before its light. Then the
+    /// lights go on that are not on show.
+    fn next_task(&mut self) -> Option<Task> {
+        if let Some(patch) = self.wish {
+            return Some(Task::LookFrom(patch));
+        }
+        let light = self.subject().light().filter(|&kind| self.going(kind).is_running());
+        let picture = self.picture_to_do();
+        if picture.is_none() || light.is_none() {
+            self.lead = 0.0;
+        }
+        match (light, picture) {
+            (Some(kind), None) => Some(Task::Light(kind)),
+            (Some(kind), Some(picture)) if !picture.is_urgent && self.lead < 0.0 => Some(Task::Light(kind)),
+            (_, Some(_)) => Some(Task::Picture),
+            (None, None) => LightKind::ALL.into_iter().find(|&kind| self.going(kind).is_running()).map(Task::Light),
+        }
+    }
+
+    fn work(&mut self, task: Task) {
+        let start = Instant::now();
+        let sign = match task {
+            Task::LookFrom(patch) => return self.look_from(patch),
+            Task::Light(kind) => {
+                self.step(kind);
+                1.0
+            }
+            Task::Picture => {
+                self.work_on_picture();
+                -1.0
+            }
+        };
+        self.lead += sign * start.elapsed().as_secs_f64();
+    }
+
+    fn subject(&self) -> Subject {
+        self.sight.map_or_else(Subject::default, |sight| sight.subject)
+    }
+
+    fn going(&self, kind: LightKind) -> Going {
+        match kind {
+            LightKind::Radiosity => self.radiosity.going,
+            LightKind::Photons => self.photons.going,
+        }
+    }
+
+    fn going_mut(&mut self, kind: LightKind) -> &mut Going {
+        match kind {
+            LightKind::Radiosity => &mut self.radiosity.going,
+            LightKind::Photons => &mut self.photons.going,
+        }
+    }
+
+    /// Of the light on show. What is found by rays from the camera alone runs until its picture is done.
+    fn phase(&mut self) -> Phase {
+        if let Some(name) = &self.loading {
+            return Phase::Loading(name.clone());
+        }
+        let going = match self.subject().light() {
+            Some(kind) => self.going(kind),
+            None if self.easel.has_crashed => Going::Crashed,
+            None if self.picture_to_do().is_some() => Going::Running { steps_left: None },
+            None => Going::Converged,
+        };
+        if self.snapshot.world.is_none() && going != Going::Crashed { Phase::Empty } else { going.phase() }
+    }
+
+    /// Gives up what panicked and tells why. All else stays and goes on.
+    fn crash(&mut self, panic: &(dyn Any + Send)) {
+        let text = panic.downcast_ref::<String>().map(String::as_str);
+        let text = text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("no reason given");
+        let what = match self.at_work {
+            Part::Light(LightKind::Radiosity) => {
+                self.radiosity.run = None;
+                self.radiosity.going = Going::Crashed;
+                "solver"
+            }
+            Part::Light(LightKind::Photons) => {
+                self.photons.run = None;
+                self.photons.going = Going::Crashed;
+                "photon map"
+            }
+            Part::Picture => {
+                self.easel.clear();
+                self.easel.has_crashed = true;
+                "picture from the camera"
+            }
+        };
+        self.loading = None;
+        self.snapshot.error = Some(format!("the {what} stopped: {text}"));
+        self.publish();
+    }
+
+    fn is_due(&self) -> bool {
+        self.published.elapsed() >= PUBLISH_INTERVAL
+    }
+
+    fn publish(&mut self) {
+        self.published = Instant::now();
+        self.snapshot.phase = self.phase();
+        self.slot.publish(self.snapshot.clone());
+    }
+}

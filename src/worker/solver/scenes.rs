@@ -1,0 +1,141 @@
+//! Scenes and settings: another of either begins anew what depends on it, and nothing else.
+
+use super::Solver;
+use crate::errors::with_causes;
+use crate::mesh::MeshSettings;
+use crate::methods::{ImageSettings, Settings};
+use crate::scene::Scene;
+use crate::worker::Refused;
+use crate::worker::workshop::Workshop;
+use crate::world::{World, WorldError, with_ceiling_light};
+use std::sync::Arc;
+
+/// Why there is no new world.
+pub(super) enum NoWorld {
+    /// A newer command made it pointless, which is no trouble.
+    Superseded,
+    Failed(String),
+}
+
+impl From<Refused> for NoWorld {
+    fn from(refused: Refused) -> Self {
+        Self::Failed(with_causes(&refused))
+    }
+}
+
+impl From<WorldError> for NoWorld {
+    fn from(error: WorldError) -> Self {
+        match error {
+            WorldError::Cancelled => Self::Superseded,
+            error => Self::Failed(with_causes(&error)),
+        }
+    }
+}
+
+impl<W: Workshop> Solver<W> {
+    pub(super) fn load(&mut self, name: &str, open: impl FnOnce() -> Result<Scene, String>) {
+        self.loading = Some(name.to_owned());
+        self.publish();
+        let old_mesh = self.snapshot.settings.mesh;
+        if self.snapshot.world.is_some() {
+            // A size in metres that suits one scene may be far too fine for another.
+            self.snapshot.settings.mesh = MeshSettings { element_size: None, ..old_mesh };
+        }
+        let built = open().map_err(NoWorld::Failed).and_then(|scene| self.build(scene));
+        let old_history = std::mem::take(&mut self.history);
+        if !self.take_over(built) {
+            self.snapshot.settings.mesh = old_mesh;
+            self.history = old_history;
+        }
+        self.loading = None;
+        self.publish();
+    }
+
+    pub(super) fn add_ceiling_light(&mut self) {
+        let Some(world) = self.snapshot.world.clone().filter(|world| !world.scene.has_emitter()) else { return };
+        let built = self.build(with_ceiling_light(&world.scene));
+        self.take_over(built);
+        self.publish();
+    }
+
+    fn build(&self, scene: Scene) -> Result<World, NoWorld> {
+        Ok(World::build(scene, &self.snapshot.settings.mesh, self.mailbox.load_cancel())?)
+    }
+
+    pub(super) fn configure(&mut self, settings: Settings) {
+        let old = std::mem::replace(&mut self.snapshot.settings, settings);
+        let Some(world) = self.snapshot.world.clone() else { return self.publish() };
+        if old.mesh == settings.mesh {
+            self.snapshot.error = None;
+            self.configure_pictures(&old);
+            if let Err(refused) = self.configure_radiosity(world.clone()) {
+                self.snapshot.error = Some(with_causes(&refused));
+                let Settings { photons, image, .. } = settings;
+                self.snapshot.settings = Settings { photons, image, ..old };
+            }
+            if let Err(refused) = self.configure_photons(&world) {
+                self.snapshot.error = Some(with_causes(&refused));
+                self.snapshot.settings.photons = old.photons;
+            }
+        } else {
+            let remeshed = world.remeshed(&settings.mesh, self.mailbox.mesh_cancel()).map_err(NoWorld::from);
+            if !self.take_over(remeshed) {
+                self.snapshot.settings = old;
+            }
+        }
+        self.publish();
+    }
+
+    fn configure_radiosity(&mut self, world: Arc<World>) -> Result<(), Refused> {
+        let settings = self.snapshot.settings;
+        if self.radiosity.run.as_mut().is_some_and(|run| run.configure(&settings)) {
+            self.history.reconfigure(&settings);
+        } else {
+            self.start_radiosity(world)?;
+        }
+        self.radiosity.going.renew();
+        Ok(())
+    }
+
+    fn configure_photons(&mut self, world: &Arc<World>) -> Result<(), Refused> {
+        let settings = self.snapshot.settings;
+        let has_begun = self.photons.starts > 0;
+        if has_begun && !self.photons.run.as_mut().is_some_and(|run| run.configure(&settings)) {
+            self.start_photons(world)?;
+        }
+        self.photons.going.renew();
+        Ok(())
+    }
+
+    /// Pictures go on where they only get more samples, or fewer.
+    fn configure_pictures(&mut self, old: &Settings) {
+        let Settings { image, seed, .. } = self.snapshot.settings;
+        if seed != old.seed || (ImageSettings { samples: old.image.samples, ..image }) != old.image {
+            self.easel.clear();
+        }
+    }
+
+    /// Shows a new world before its first step, or says why there is none, leaves everything as it was and returns false.
+    fn take_over(&mut self, built: Result<World, NoWorld>) -> bool {
+        let started = built.and_then(|world| Ok(self.start_radiosity(Arc::new(world))?));
+        match started {
+            Ok(()) => {
+                self.snapshot.error = None;
+                self.radiosity.going.renew();
+                self.photons.going.renew();
+                self.photons.run = None;
+                self.forget_photons();
+                self.easel.clear();
+                self.snapshot.image = None;
+                self.start_photons_if_needed();
+                true
+            }
+            Err(no_world) => {
+                if let NoWorld::Failed(reason) = no_world {
+                    self.snapshot.error = Some(reason);
+                }
+                false
+            }
+        }
+    }
+}
