@@ -1,62 +1,286 @@
-//! A method whose steps do what a test says.
+//! Methods whose steps do what a test says.
 
+use glam::Vec3A;
 use lightwell::cancel::Cancel;
 use lightwell::math::rgb::Rgb;
 use lightwell::methods::{Method, Settings, Step};
-use lightwell::solution::{Closure, Counters, ElementLight, Energy, Solution};
-use lightwell::worker::{StartMethod, Worker};
+use lightwell::solution::{
+    CameraImage, ElementLight, Gathered, Path, Photon, PhotonSolution, PhotonTrail, Solution, TrailPlace,
+};
+use lightwell::worker::{CameraShot, ImageMethod, Lights, PhotonMethod, PhotonProgress, Refused, Worker, Workshop};
+use lightwell::world::World;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 /// What a step does, given the number of steps before it.
 type Work = dyn Fn(u64, &Cancel) -> Step + Send + Sync;
+type StartMethod = dyn Fn(Arc<World>, &Settings) -> Box<dyn Method> + Send;
+
+/// A workshop of such methods.
+pub struct Fakes {
+    radiosity: Box<StartMethod>,
+    photons: Arc<Work>,
+    image: Arc<Work>,
+    counts: Arc<Counts>,
+}
+
+/// How often something was done.
+#[derive(Default)]
+pub struct Counts {
+    pub radiosity_starts: AtomicU64,
+    pub photon_starts: AtomicU64,
+    pub image_starts: AtomicU64,
+    pub radiosity_steps: AtomicU64,
+    pub photon_steps: AtomicU64,
+    pub image_steps: AtomicU64,
+    pub cancelled_images: AtomicU64,
+}
+
+impl Counts {
+    pub fn of(count: &AtomicU64) -> u64 {
+        count.load(Ordering::SeqCst)
+    }
+
+    fn add(count: &AtomicU64, step: Step, kind: Step) {
+        count.fetch_add(u64::from(step == kind), Ordering::SeqCst);
+    }
+}
+
+impl Fakes {
+    pub fn radiosity(self, work: impl Fn(u64, &Cancel) -> Step + Send + Sync + 'static) -> Self {
+        let (work, counts): (Arc<Work>, _) = (Arc::new(work), self.counts.clone());
+        self.starting(move |world, settings| {
+            let elements = world.mesh.elements.len();
+            let (work, counts) = (work.clone(), counts.clone());
+            Box::new(Fake { work, counts, steps: 0, settings: *settings, elements })
+        })
+    }
+
+    /// With radiosity of one's own.
+    pub fn starting(self, start: impl Fn(Arc<World>, &Settings) -> Box<dyn Method> + Send + 'static) -> Self {
+        Self { radiosity: Box::new(start), ..self }
+    }
+
+    pub fn photons(self, work: impl Fn(u64, &Cancel) -> Step + Send + Sync + 'static) -> Self {
+        Self { photons: Arc::new(work), ..self }
+    }
+
+    pub fn image(self, work: impl Fn(u64, &Cancel) -> Step + Send + Sync + 'static) -> Self {
+        Self { image: Arc::new(work), ..self }
+    }
+
+    /// The worker, and how often its methods did what.
+    pub fn spawn(self) -> (Worker, Arc<Counts>) {
+        let counts = self.counts.clone();
+        (Worker::spawn_with(self, || ()), counts)
+    }
+}
+
+/// All steps are short.
+impl Default for Fakes {
+    fn default() -> Self {
+        let nothing = |_: Arc<World>, _: &Settings| -> Box<dyn Method> { unreachable!() };
+        let fakes = Self {
+            radiosity: Box::new(nothing),
+            photons: Arc::new(short_step),
+            image: Arc::new(short_step),
+            counts: Arc::default(),
+        };
+        fakes.radiosity(short_step)
+    }
+}
+
+impl Workshop for Fakes {
+    type Photons = FakePhotons;
+    type Image = FakeImage;
+
+    fn radiosity(&mut self, world: &Arc<World>, settings: &Settings) -> Result<Box<dyn Method>, Refused> {
+        self.counts.radiosity_starts.fetch_add(1, Ordering::SeqCst);
+        Ok((self.radiosity)(world.clone(), settings))
+    }
+
+    fn photons(&mut self, _: &Arc<World>, settings: &Settings) -> Result<FakePhotons, Refused> {
+        let count = u64::from(settings.photons.count);
+        if count > 1_000_000 {
+            return Err(Refused::Photons { photons: count, landings: count, needed_mib: 2, available_mib: 1 });
+        }
+        self.counts.photon_starts.fetch_add(1, Ordering::SeqCst);
+        let (work, counts) = (self.photons.clone(), self.counts.clone());
+        Ok(FakePhotons { work, counts, steps: 0, batches: 0, passes: 0, settings: *settings })
+    }
+
+    fn image(&mut self, lights: Lights<'_, FakePhotons>, shot: &CameraShot, _: &Settings) -> FakeImage {
+        assert_eq!(lights.photons.is_some(), shot.view.needs_photons());
+        assert_eq!(lights.radiosity.is_some(), shot.view.needs_radiosity());
+        self.counts.image_starts.fetch_add(1, Ordering::SeqCst);
+        let (work, counts) = (self.image.clone(), self.counts.clone());
+        FakeImage { work, counts, shot: *shot, steps: 0, light: light(&lights), passes: 1 }
+    }
+
+    fn go_on(&mut self, image: &mut FakeImage, lights: Lights<'_, FakePhotons>) {
+        image.light = light(&lights);
+        image.passes += 1;
+    }
+}
+
+/// Steps of radiosity or batches of photons that a picture is made of.
+fn light(lights: &Lights<'_, FakePhotons>) -> u64 {
+    let photons = lights.photons.as_ref().map(|photons| photons.batches);
+    photons.or(lights.radiosity.as_ref().map(|solution| solution.steps)).unwrap_or_default()
+}
 
 struct Fake {
     work: Arc<Work>,
+    counts: Arc<Counts>,
     steps: u64,
-    seed: u64,
+    settings: Settings,
     elements: usize,
 }
 
 impl Method for Fake {
     fn step(&mut self, cancel: &Cancel) -> Step {
         let step = (self.work)(self.steps, cancel);
+        Counts::add(&self.counts.radiosity_steps, step, Step::Advanced);
         self.steps += u64::from(step == Step::Advanced);
         step
     }
 
     fn configure(&mut self, settings: &Settings) -> bool {
-        settings.seed == self.seed
+        self.settings.is_same_radiosity(settings)
     }
 
     fn solution(&self) -> Solution {
         let light = vec![Rgb::ZERO; self.elements];
         Solution {
             steps: self.steps,
-            elapsed: Duration::ZERO,
-            converged: false,
-            energy: Energy::default(),
-            closure: Closure::default(),
-            counters: Counters::default(),
-            shooter: None,
             light: ElementLight { irradiance: light.clone(), radiosity: light.clone(), unshot: light },
             ..Solution::default()
         }
     }
 }
 
-/// A worker whose method does this work in every step.
-pub fn worker(work: impl Fn(u64, &Cancel) -> Step + Send + Sync + 'static) -> Worker {
-    Worker::spawn_with(method(work), || ())
+/// A batch a step, ten batches a pass.
+pub struct FakePhotons {
+    work: Arc<Work>,
+    counts: Arc<Counts>,
+    steps: u64,
+    batches: u64,
+    passes: u64,
+    settings: Settings,
 }
 
-/// The method itself, for a worker of one's own.
-pub fn method(work: impl Fn(u64, &Cancel) -> Step + Send + Sync + 'static) -> Box<StartMethod> {
-    let work: Arc<Work> = Arc::new(work);
-    Box::new(move |world, settings| {
-        let elements = world.mesh.elements.len();
-        Ok(Box::new(Fake { work: work.clone(), steps: 0, seed: settings.seed, elements }))
-    })
+/// Batches of a pass of photons.
+pub const BATCHES: u64 = 10;
+
+impl PhotonMethod for FakePhotons {
+    fn step(&mut self, cancel: &Cancel) -> Step {
+        let photons = self.settings.photons;
+        let passes = if photons.is_progressive { photons.passes.into() } else { 1 };
+        if self.passes == passes {
+            return Step::Converged;
+        }
+        let step = (self.work)(self.steps, cancel);
+        Counts::add(&self.counts.photon_steps, step, Step::Advanced);
+        if step == Step::Advanced {
+            self.steps += 1;
+            self.batches = self.batches % BATCHES + 1;
+            self.passes += u64::from(self.batches == BATCHES);
+        }
+        step
+    }
+
+    fn configure(&mut self, settings: &Settings) -> bool {
+        let is_same = self.settings.seed == settings.seed && self.settings.photons == settings.photons;
+        if is_same {
+            self.settings = *settings;
+        }
+        is_same
+    }
+
+    fn progress(&self) -> PhotonProgress {
+        PhotonProgress { batches: self.batches, passes: self.passes, is_complete: self.batches == BATCHES }
+    }
+
+    fn solution(&mut self) -> PhotonSolution {
+        let photon = |batch| Photon {
+            position: glam::Vec3::ZERO,
+            flux: Rgb::ONE,
+            direction: glam::Vec3::NEG_Y,
+            side: 0,
+            path: Path::LIGHT,
+            emission: batch as u32,
+        };
+        let PhotonProgress { batches, passes, is_complete } = self.progress();
+        let photons = Arc::new((0..batches).map(photon).collect());
+        PhotonSolution { batches, passes, is_complete, photons, ..PhotonSolution::default() }
+    }
+
+    fn trail(&mut self, photon: &Photon) -> Option<PhotonTrail> {
+        let place = TrailPlace { point: photon.position, flux: photon.flux, survival: 1.0, scattering: None };
+        Some(PhotonTrail { places: vec![place; photon.emission as usize + 1], escape: None })
+    }
+
+    fn gathered(&mut self, point: Vec3A, normal: Vec3A) -> Option<Gathered> {
+        assert!(point.x < 1e6, "that is far away");
+        let used = (0..self.batches as u32).collect();
+        Some(Gathered { point: point.into(), normal: normal.into(), used, ..Gathered::default() })
+    }
+}
+
+/// A coarse pass, then a sample of every pixel a step. `rays` of its images tell of how much light they were made, and
+/// their background of how many passes of photons.
+pub struct FakeImage {
+    work: Arc<Work>,
+    counts: Arc<Counts>,
+    shot: CameraShot,
+    steps: u64,
+    light: u64,
+    passes: u64,
+}
+
+impl ImageMethod for FakeImage {
+    fn step(&mut self, cancel: &Cancel) -> Step {
+        let step = (self.work)(self.steps, cancel);
+        Counts::add(&self.counts.image_steps, step, Step::Advanced);
+        Counts::add(&self.counts.cancelled_images, step, Step::Cancelled);
+        self.steps += u64::from(step == Step::Advanced);
+        step
+    }
+
+    fn samples(&self) -> u32 {
+        self.steps.saturating_sub(1) as u32
+    }
+
+    fn is_between_passes(&self) -> bool {
+        self.samples() > 0
+    }
+
+    fn image(&self) -> Option<CameraImage> {
+        let CameraShot { view, camera, size } = self.shot;
+        (self.steps > 0).then(|| CameraImage {
+            view,
+            camera,
+            size,
+            resolution: if self.steps > 1 { size } else { [1, 1] },
+            radiance: vec![Rgb::ZERO],
+            coverage: vec![self.passes as f32],
+            samples: self.samples(),
+            rays: self.light,
+            elapsed: Duration::ZERO,
+            is_complete: false,
+        })
+    }
+}
+
+/// A worker whose radiosity does this work in every step.
+pub fn worker(work: impl Fn(u64, &Cancel) -> Step + Send + Sync + 'static) -> Worker {
+    method(work).spawn().0
+}
+
+/// The workshop of it, for a worker of one's own.
+pub fn method(work: impl Fn(u64, &Cancel) -> Step + Send + Sync + 'static) -> Fakes {
+    Fakes::default().radiosity(work)
 }
 
 /// A step that takes a second, unless it is told to stop.
@@ -69,7 +293,8 @@ pub fn short_step(_: u64, cancel: &Cancel) -> Step {
     step_of(Duration::from_micros(100), cancel)
 }
 
-fn step_of(duration: Duration, cancel: &Cancel) -> Step {
+/// A step that takes so long, unless it is told to stop.
+pub fn step_of(duration: Duration, cancel: &Cancel) -> Step {
     let start = Instant::now();
     while start.elapsed() < duration {
         if cancel.is_requested() {

@@ -9,7 +9,7 @@ use lightwell::methods::radiosity::Progressive;
 use lightwell::methods::{Method, Settings, Step};
 use lightwell::scene::Scene;
 use lightwell::solution::Solution;
-use lightwell::worker::{Command, Phase, Refused, Run, Snapshot, Worker};
+use lightwell::worker::{Command, Phase, Run, Snapshot, Worker};
 use lightwell::world::World;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -123,10 +123,10 @@ fn a_step_that_was_interrupted_changes_nothing() {
     let settings = with_elements(0.012);
     let cancelled = Arc::new(AtomicU64::new(0));
     let counter = cancelled.clone();
-    let start = move |world: Arc<World>, settings: &Settings| -> Result<Box<dyn Method>, Refused> {
-        Ok(Box::new(Counting(Progressive::new(world, *settings), counter.clone())))
+    let start = move |world: Arc<World>, settings: &Settings| -> Box<dyn Method> {
+        Box::new(Counting(Progressive::new(world, *settings), counter.clone()))
     };
-    let worker = Worker::spawn_with(Box::new(start), || ());
+    let (worker, _) = fake::Fakes::default().starting(start).spawn();
     worker.send(Command::Configure(settings));
     load(&worker, "cornell-box");
     worker.send(Command::Step(STEPS));

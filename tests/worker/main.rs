@@ -3,12 +3,18 @@
 mod commands;
 mod fake;
 mod interruption;
+mod lights;
+mod pictures;
 mod publishing;
 mod trouble;
 
+use glam::Vec3;
+use lightwell::camera::Camera;
+use lightwell::math::bounds::Bounds;
 use lightwell::mesh::MeshSettings;
 use lightwell::methods::Settings;
-use lightwell::worker::{Command, Phase, Snapshot, Worker};
+use lightwell::scene::Viewpoint;
+use lightwell::worker::{Command, Phase, Sight, Snapshot, Subject, Worker};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -28,6 +34,30 @@ fn wait_for(worker: &Worker, what: &str, is_it: impl Fn(&Snapshot) -> bool) -> A
         assert!(start.elapsed() < PATIENCE, "never {what}; it is {:?}, {:?}", snapshot.phase, snapshot.error);
         std::thread::sleep(Duration::from_micros(200));
     }
+}
+
+/// Waits for something that no snapshot tells.
+fn wait_until(what: &str, is_it: impl Fn() -> bool) {
+    let start = Instant::now();
+    while !is_it() {
+        assert!(start.elapsed() < PATIENCE, "never {what}");
+        std::thread::sleep(Duration::from_micros(200));
+    }
+}
+
+/// A small picture from so far away.
+fn sight(subject: Subject, distance: f32) -> Sight {
+    let viewpoint = Viewpoint { eye: distance * Vec3::Z, target: Vec3::ZERO, up: Vec3::Y, vertical_fov: 40.0 };
+    let camera = Camera::new(&viewpoint, &Bounds { min: Vec3::ZERO, max: Vec3::ONE });
+    Sight { subject, camera, size: [16, 12] }
+}
+
+fn look(worker: &Worker, subject: Subject) {
+    look_from(worker, subject, 3.0);
+}
+
+fn look_from(worker: &Worker, subject: Subject, distance: f32) {
+    worker.send(Command::Look(sight(subject, distance)));
 }
 
 /// Opens a scene and waits for it.

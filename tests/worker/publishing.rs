@@ -1,9 +1,9 @@
 //! What is published, and how often.
 
-use crate::fake;
+use crate::fake::{self, Fakes};
 use crate::{PATIENCE, load, name, steps, wait_for};
 use lightwell::methods::Step;
-use lightwell::worker::{Command, Phase, Snapshot, StartMethod, Worker};
+use lightwell::worker::{Command, Phase, Snapshot, Worker};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex};
@@ -18,11 +18,11 @@ struct Watched {
 }
 
 impl Watched {
-    fn new(start_method: Box<StartMethod>) -> Self {
+    fn new(fakes: Fakes) -> Self {
         let (publish, published) = channel();
         let (seen, wait) = channel();
         let wait = Mutex::new(wait);
-        let worker = Worker::spawn_with(start_method, move || {
+        let worker = Worker::spawn_with(fakes, move || {
             // Both fail once the test is over.
             let _ = publish.send(());
             let _ = wait.lock().map(|wait: std::sync::MutexGuard<'_, Receiver<()>>| wait.recv());

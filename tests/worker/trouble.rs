@@ -1,8 +1,10 @@
 //! Scenes that cannot be opened, and methods that panic.
 
 use crate::{fake, load, name, steps, wait_for};
-use lightwell::methods::Step;
+use lightwell::methods::radiosity::Progressive;
+use lightwell::methods::{Method, Settings, Step};
 use lightwell::worker::{Command, Phase, Worker};
+use lightwell::world::World;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -92,7 +94,7 @@ fn new_settings_after_a_panic_start_afresh() {
     worker.send(Command::Run);
     wait_for(&worker, "crashed", |now| now.phase == Phase::Crashed);
     is_broken.store(false, Ordering::SeqCst);
-    let settings = lightwell::methods::Settings { seed: 1, ..loaded.settings };
+    let settings = Settings { seed: 1, ..loaded.settings };
     worker.send(Command::Configure(settings));
     let fresh = wait_for(&worker, "configured", |now| now.settings == settings);
     assert_eq!((steps(&fresh), &fresh.phase, &fresh.error), (0, &Phase::Paused, &None));
@@ -100,12 +102,11 @@ fn new_settings_after_a_panic_start_afresh() {
 
 #[test]
 fn a_method_that_panics_before_its_first_step_leaves_no_light_of_another_world() {
-    let good = fake::method(fake::short_step);
-    let start = move |world: Arc<lightwell::world::World>, settings: &lightwell::methods::Settings| {
+    let start = |world: Arc<World>, settings: &Settings| -> Box<dyn Method> {
         assert_ne!(world.scene.name, "empty-box", "no such method there");
-        good(world, settings)
+        Box::new(Progressive::new(world, *settings))
     };
-    let worker = Worker::spawn_with(Box::new(start), || ());
+    let (worker, _) = fake::Fakes::default().starting(start).spawn();
     load(&worker, "furnace");
     worker.send(Command::Load("empty-box".to_owned()));
     let crashed = wait_for(&worker, "crashed", |now| now.phase == Phase::Crashed);

@@ -1,0 +1,232 @@
+//! Pictures from a camera: coarse first, refined without being told to, made anew when their light has grown.
+
+use crate::fake::{self, BATCHES, Counts, Fakes};
+use crate::{load, look, look_from, median, steps, wait_for, wait_until};
+use lightwell::methods::{ImageSettings, PhotonSettings, Settings, Step};
+use lightwell::solution::{CameraImage, CameraView};
+use lightwell::worker::{Command, Phase, Snapshot, Subject, Worker};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+const RAYS: Subject = Subject::Camera(CameraView::RayTraced);
+const GATHER: Subject = Subject::Camera(CameraView::FinalGather);
+/// What a command may take until it shows.
+const PROMPT: Duration = Duration::from_millis(50);
+
+fn image(snapshot: &Snapshot) -> Option<&CameraImage> {
+    snapshot.image.as_deref()
+}
+
+fn samples(snapshot: &Snapshot) -> u32 {
+    image(snapshot).map_or(0, |image| image.samples)
+}
+
+/// Waits for a picture of this view with all samples.
+fn finished(worker: &Worker, view: CameraView) -> Arc<Snapshot> {
+    wait_for(worker, "finished", |now| image(now).is_some_and(|image| image.is_complete && image.view == view))
+}
+
+#[test]
+fn a_picture_refines_by_itself_and_ends() {
+    let (worker, counts) = Fakes::default().image(|_, cancel| fake::step_of(Duration::from_millis(5), cancel)).spawn();
+    load(&worker, "furnace");
+    look(&worker, RAYS);
+    let coarse = wait_for(&worker, "seen", |now| now.image.is_some());
+    let first = image(&coarse).expect("an image");
+    assert!(first.resolution == [1, 1] && !first.is_complete, "coarse first");
+    assert_eq!(coarse.phase, Phase::Running);
+    let end = finished(&worker, CameraView::RayTraced);
+    assert_eq!((samples(&end), &end.phase), (end.settings.image.samples, &Phase::Converged));
+    assert!(image(&end).is_some_and(|image| image.elapsed >= Duration::from_millis(5 * 17)));
+    let steps = Counts::of(&counts.image_steps);
+    std::thread::sleep(PROMPT);
+    assert_eq!(Counts::of(&counts.image_steps), steps);
+}
+
+#[test]
+fn a_camera_that_moves_interrupts_the_picture_and_starts_it_coarse() {
+    let work = |steps, cancel: &_| if steps == 0 { Step::Advanced } else { fake::long_step(steps, cancel) };
+    let (worker, counts) = Fakes::default().image(work).spawn();
+    load(&worker, "furnace");
+    let times = (0..7).map(|i| {
+        look_from(&worker, RAYS, 1.0 + i as f32);
+        let camera = crate::sight(RAYS, 1.0 + i as f32).camera;
+        let start = Instant::now();
+        let seen = wait_for(&worker, "seen", |now| image(now).is_some_and(|image| image.camera == camera));
+        assert_eq!(image(&seen).map(|image| (image.samples, image.resolution)), Some((0, [1, 1])));
+        // So long that the next step is certainly under way.
+        let elapsed = start.elapsed();
+        std::thread::sleep(Duration::from_millis(20));
+        elapsed
+    });
+    let time = median(times.collect());
+    assert!(time < PROMPT, "{time:?}");
+    assert!(Counts::of(&counts.cancelled_images) >= 6);
+}
+
+#[test]
+fn another_size_starts_the_picture_anew_and_an_empty_one_is_none() {
+    let (worker, counts) = Fakes::default().spawn();
+    load(&worker, "furnace");
+    let sight = crate::sight(RAYS, 3.0);
+    for size in [[0, 8], [8, 0]] {
+        worker.send(Command::Look(lightwell::worker::Sight { size, ..sight }));
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    assert!(worker.latest().image.is_none());
+    look(&worker, RAYS);
+    finished(&worker, CameraView::RayTraced);
+    worker.send(Command::Look(lightwell::worker::Sight { size: [20, 10], ..sight }));
+    wait_for(&worker, "finished", |now| image(now).is_some_and(|image| image.size == [20, 10] && image.is_complete));
+    assert_eq!(Counts::of(&counts.image_starts), 2);
+}
+
+#[test]
+fn a_view_that_was_looked_at_from_here_before_is_there_at_once() {
+    let (worker, counts) = Fakes::default().spawn();
+    load(&worker, "furnace");
+    look(&worker, RAYS);
+    finished(&worker, CameraView::RayTraced);
+    look(&worker, GATHER);
+    finished(&worker, CameraView::FinalGather);
+    let steps = Counts::of(&counts.image_steps);
+    for subject in [RAYS, Subject::Radiosity, GATHER, Subject::Photons, RAYS] {
+        look(&worker, subject);
+        if let Subject::Camera(view) = subject {
+            finished(&worker, view);
+        }
+    }
+    assert_eq!((Counts::of(&counts.image_steps), Counts::of(&counts.image_starts)), (steps, 2));
+    // From elsewhere nothing of it is of use.
+    look_from(&worker, RAYS, 9.0);
+    wait_until("anew", || Counts::of(&counts.image_starts) == 3);
+}
+
+#[test]
+fn a_paused_light_leaves_its_picture_refining() {
+    let (worker, counts) = Fakes::default().image(|_, cancel| fake::step_of(Duration::from_millis(5), cancel)).spawn();
+    load(&worker, "furnace");
+    look(&worker, GATHER);
+    worker.send(Command::Step(3));
+    wait_for(&worker, "traced", |now| now.photons.as_ref().is_some_and(|photons| photons.batches == 3));
+    let end = finished(&worker, CameraView::FinalGather);
+    assert_eq!((samples(&end), &end.phase), (end.settings.image.samples, &Phase::Paused));
+    assert_eq!(image(&end).map(|image| image.rays), Some(3), "made of all the light that there is");
+    assert_eq!(Counts::of(&counts.photon_steps), 3);
+}
+
+#[test]
+fn a_picture_and_its_growing_light_share_the_time() {
+    let slow = |_, cancel: &_| fake::step_of(Duration::from_millis(3), cancel);
+    let (worker, counts) = Fakes::default().radiosity(slow).image(slow).spawn();
+    load(&worker, "furnace");
+    look(&worker, Subject::Camera(CameraView::RadiositySpecular));
+    worker.send(Command::Run);
+    let both = || [Counts::of(&counts.radiosity_steps), Counts::of(&counts.image_steps)];
+    wait_until("at work", || both()[0] >= 40);
+    let [light, picture] = both();
+    // Each of them is as long; where one has nothing to do the other goes on, so the light may have more.
+    assert!(picture >= light / 4, "{light} steps of light, {picture} of the picture");
+    let starts = Counts::of(&counts.image_starts);
+    // Made anew at a quarter more light each: from 1 to 40 steps that is at most log 40 / log 1.25, and one at the start.
+    assert!((2..=18).contains(&starts), "{starts}");
+    worker.send(Command::Pause);
+    let end = finished(&worker, CameraView::RadiositySpecular);
+    assert_eq!(image(&end).map(|image| image.rays), Some(steps(&end)));
+}
+
+#[test]
+fn a_picture_on_show_stays_until_the_next_one_is_as_fine() {
+    let (worker, _) = Fakes::default()
+        .radiosity(|_, cancel| fake::step_of(Duration::from_millis(2), cancel))
+        .image(|_, cancel| fake::step_of(Duration::from_millis(2), cancel))
+        .spawn();
+    load(&worker, "furnace");
+    worker.send(Command::Step(10));
+    wait_for(&worker, "stepped", |now| steps(now) == 10 && now.phase == Phase::Paused);
+    look(&worker, Subject::Camera(CameraView::RadiositySpecular));
+    finished(&worker, CameraView::RadiositySpecular);
+    worker.send(Command::Run);
+    // Until there is twice the light, nothing coarse is seen.
+    let start = Instant::now();
+    while steps(&worker.latest()) < 18 {
+        let now = worker.latest();
+        assert!(samples(&now) > 0, "made of {:?} steps", image(&now).map(|image| image.rays));
+        assert!(start.elapsed() < crate::PATIENCE);
+    }
+}
+
+#[test]
+fn each_progressive_pass_gives_one_sample_of_every_pixel() {
+    let (worker, counts) = Fakes::default().spawn();
+    let loaded = load(&worker, "furnace");
+    let photons = PhotonSettings { is_progressive: true, passes: 6, ..loaded.settings.photons };
+    let image_settings = ImageSettings { samples: 3, ..loaded.settings.image };
+    worker.send(Command::Configure(Settings { photons, image: image_settings, ..loaded.settings }));
+    look(&worker, GATHER);
+    worker.send(Command::Run);
+    let end = finished(&worker, CameraView::FinalGather);
+    let photons = end.photons.as_ref().expect("photons");
+    assert_eq!((photons.passes, samples(&end), &end.phase), (6, 6, &Phase::Converged));
+    let end = image(&end).expect("an image");
+    // Its fake tells how many passes it is the mean of, and of how many batches the last one was.
+    assert_eq!((end.coverage[0], end.rays), (6.0, BATCHES));
+    assert_eq!(Counts::of(&counts.photon_steps), 6 * BATCHES);
+}
+
+#[test]
+fn settings_of_pictures_start_only_pictures_anew_and_more_samples_not_even_these() {
+    let (worker, counts) = Fakes::default().spawn();
+    let loaded = load(&worker, "furnace");
+    look(&worker, GATHER);
+    worker.send(Command::Step(2));
+    let before = finished(&worker, CameraView::FinalGather);
+    let starts = Counts::of(&counts.image_starts);
+    let more = Settings { image: ImageSettings { samples: 20, ..loaded.settings.image }, ..loaded.settings };
+    worker.send(Command::Configure(more));
+    let after = wait_for(&worker, "refined", |now| samples(now) == 20);
+    assert_eq!((Counts::of(&counts.image_starts), &after.phase), (starts, &Phase::Paused));
+    let filtered = ImageSettings { filter: "LDE".parse().expect("a pattern"), ..more.image };
+    worker.send(Command::Configure(Settings { image: filtered, ..more }));
+    wait_until("anew", || Counts::of(&counts.image_starts) == starts + 1);
+    assert_eq!((Counts::of(&counts.radiosity_starts), Counts::of(&counts.photon_starts)), (1, 1));
+    let (old, new) = (&before.photons, worker.latest().photons.clone());
+    assert_eq!(old.as_ref().map(|photons| photons.batches), new.map(|photons| photons.batches));
+}
+
+#[test]
+fn a_crash_of_a_picture_leaves_the_lights() {
+    let is_broken = Arc::new(AtomicBool::new(true));
+    let flag = is_broken.clone();
+    let work = move |steps, _: &_| {
+        assert!(steps == 0 || !flag.load(Ordering::SeqCst), "a broken lens");
+        Step::Advanced
+    };
+    let (worker, _) = Fakes::default().image(work).spawn();
+    load(&worker, "furnace");
+    look(&worker, RAYS);
+    let crashed = wait_for(&worker, "crashed", |now| now.phase == Phase::Crashed);
+    assert!(crashed.error.as_ref().is_some_and(|error| error.contains("a broken lens")), "{:?}", crashed.error);
+    look(&worker, Subject::Radiosity);
+    worker.send(Command::Step(2));
+    wait_for(&worker, "stepped", |now| steps(now) == 2 && now.phase == Phase::Paused);
+    is_broken.store(false, Ordering::SeqCst);
+    look(&worker, RAYS);
+    finished(&worker, CameraView::RayTraced);
+    worker.send(Command::Reset);
+    finished(&worker, CameraView::RayTraced);
+}
+
+#[test]
+fn a_new_world_has_no_picture_of_the_old_one() {
+    let (worker, _) = Fakes::default().spawn();
+    load(&worker, "furnace");
+    look(&worker, RAYS);
+    finished(&worker, CameraView::RayTraced);
+    worker.send(Command::Load("empty-box".to_owned()));
+    let end = wait_for(&worker, "finished", |now| {
+        crate::name(now) == "empty-box" && image(now).is_some_and(|image| image.is_complete)
+    });
+    assert_eq!(end.phase, Phase::Converged);
+}
