@@ -1,6 +1,7 @@
 //! The ways to simulate light. Each is plain state and a step: no threads of its own, no clock, no file, no window.
 
 pub mod image;
+pub mod photon_map;
 pub mod radiosity;
 mod settings;
 pub mod transport;

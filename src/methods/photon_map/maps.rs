@@ -1,0 +1,251 @@
+//! Photons made ready to be asked for the irradiance at a point.
+
+use super::density::{Estimate, Sum};
+use super::ground::Ground;
+use super::nearest::Nearest;
+use super::tree::{Entry, Found, Tree};
+use crate::methods::Kernel;
+use crate::methods::transport::{Surface, Transport};
+use crate::solution::{Gathered, Path, PathMatcher, Photon, Scattering, Split};
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// Planes of the tree are handed out down to here.
+const SPLIT_DEPTH: u8 = 12;
+
+/// Tags of photons hold their group above what kind of light they are.
+const KIND_BITS: u32 = 2;
+
+/// What kind of light a photon is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Direct = 0,
+    Indirect = 1,
+    Caustic = 2,
+}
+
+impl Kind {
+    fn of(path: Path) -> Self {
+        if path.is_empty() {
+            Self::Direct
+        } else if path.is_caustic() {
+            Self::Caustic
+        } else {
+            Self::Indirect
+        }
+    }
+}
+
+/// Which photons count.
+#[derive(Clone, Copy, Debug)]
+pub enum Which<'a> {
+    All,
+    /// Straight from the light.
+    Direct,
+    /// From a diffuse surface, perhaps by way of others.
+    Indirect,
+    /// From the light over specular surfaces alone.
+    Caustics,
+    Filtered(&'a PhotonFilter),
+}
+
+impl Which<'_> {
+    /// A bit for each kind.
+    fn kinds(self) -> u32 {
+        match self {
+            Self::All | Self::Filtered(_) => 0b111,
+            Self::Direct => 1 << Kind::Direct as u32,
+            Self::Indirect => 1 << Kind::Indirect as u32,
+            Self::Caustics => 1 << Kind::Caustic as u32,
+        }
+    }
+}
+
+/// The photons whose light takes a path that is wanted.
+#[derive(Clone, Debug)]
+pub struct PhotonFilter {
+    /// Of each path of the maps that it was made for.
+    passes: Vec<bool>,
+}
+
+/// What a search needs of memory; to be kept from one to the next.
+#[derive(Clone, Debug, Default)]
+pub struct Scratch {
+    nearest: Nearest,
+}
+
+/// How photons are gathered.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Gathering {
+    /// The most photons that an estimate uses; `None` for all within the radius.
+    pub nearest: Option<usize>,
+    pub kernel: Kernel,
+    /// m
+    pub max_radius: f32,
+}
+
+/// The photons of a map, and what their flux is to be multiplied by while some of them are still to come.
+pub(super) struct Map {
+    tree: Tree,
+    scale: f32,
+}
+
+/// The trees of both maps.
+pub(super) struct Trees {
+    transport: Arc<Transport>,
+    ground: Arc<Ground>,
+    photons: Arc<Vec<Photon>>,
+    global: Map,
+    caustic: Map,
+    /// The different paths of photons.
+    paths: Vec<Path>,
+    /// Which of them each photon took.
+    path_of: Vec<u32>,
+    is_complete: bool,
+}
+
+/// What photons are put into trees.
+pub(super) struct Stock {
+    pub photons: Arc<Vec<Photon>>,
+    /// Whether those of caustics are from a map of their own.
+    pub has_caustic_map: bool,
+    /// All photons that will be emitted by those that were, in each map.
+    pub scales: [f32; 2],
+    pub is_complete: bool,
+}
+
+impl Trees {
+    pub fn new(transport: Arc<Transport>, ground: Arc<Ground>, stock: Stock) -> Self {
+        let Stock { photons, has_caustic_map, scales, is_complete } = stock;
+        let entry = |index: usize| {
+            let photon = &photons[index];
+            let tag = ground.group(photon.side) << KIND_BITS | Kind::of(photon.path) as u32;
+            Entry { position: photon.position, index: index as u32, tag }
+        };
+        let is_caustic = |index: &usize| has_caustic_map && photons[*index].path.is_caustic();
+        let (caustic, global): (Vec<usize>, Vec<usize>) = (0..photons.len()).partition(is_caustic);
+        let map = |indices: Vec<usize>, scale| Map { tree: Tree::new(indices.into_iter().map(entry).collect()), scale };
+        let (global, caustic) = (map(global, scales[0]), map(caustic, scales[1]));
+        let mut paths = Vec::new();
+        let mut places = HashMap::new();
+        let path_of = photons.iter().map(|photon| {
+            *places.entry(photon.path).or_insert_with(|| {
+                paths.push(photon.path);
+                paths.len() as u32 - 1
+            })
+        });
+        let path_of = path_of.collect();
+        Self { transport, ground, photons, global, caustic, paths, path_of, is_complete }
+    }
+}
+
+/// The photons of a pass in trees. A surface is asked by where a ray met it; see [`Transport::meet`].
+pub struct PhotonMaps {
+    pub(super) trees: Arc<Trees>,
+    pub(super) gathering: Gathering,
+}
+
+impl PhotonMaps {
+    /// All photons, as in [`crate::solution::PhotonSolution::photons`].
+    pub fn photons(&self) -> &Arc<Vec<Photon>> {
+        &self.trees.photons
+    }
+
+    /// Whether all photons of the pass are there. If not, those that are stand for all.
+    pub fn is_complete(&self) -> bool {
+        self.trees.is_complete
+    }
+
+    /// The farthest at which an estimate looks for photons, m.
+    pub fn max_radius(&self) -> f32 {
+        self.gathering.max_radius
+    }
+
+    /// The transport whose photons these are.
+    pub fn transport(&self) -> &Arc<Transport> {
+        &self.trees.transport
+    }
+
+    /// How the tree of the global map divides it, down to a depth that can be drawn.
+    pub fn splits(&self) -> Vec<Split> {
+        self.trees.global.tree.splits(SPLIT_DEPTH + 1)
+    }
+
+    /// The photons that pass where they are seen from an eye over `to_eye`, the events from the eye on to the diffuse surface
+    /// on which they landed. It is good for these maps only.
+    pub fn filter(&self, matcher: &PathMatcher, to_eye: Path) -> PhotonFilter {
+        let passes = |&path: &Path| matcher.passes(path, Some(Scattering::Diffuse), to_eye);
+        PhotonFilter { passes: self.trees.paths.iter().map(passes).collect() }
+    }
+
+    /// Irradiance at a surface, on the side that was met.
+    pub fn irradiance(&self, at: &Surface, which: Which, scratch: &mut Scratch) -> Estimate {
+        let global = self.sum(&self.trees.global, at, which, scratch, &mut |_| {});
+        let caustic = self.sum(&self.trees.caustic, at, which, scratch, &mut |_| {});
+        global.with(&caustic).estimate()
+    }
+
+    /// What the estimate of the irradiance at a surface is made of.
+    pub fn gathered(&self, at: &Surface) -> Gathered {
+        let mut scratch = Scratch::default();
+        let (mut used, mut rejected) = (Vec::new(), Vec::new());
+        let mut sum = Sum::default();
+        for map in [&self.trees.global, &self.trees.caustic] {
+            let mut own = Vec::new();
+            let part = self.sum(map, at, Which::All, &mut scratch, &mut |photon| own.push(photon));
+            let radius = part.radius();
+            own.sort_unstable();
+            map.tree.search(at.point, radius * radius, |found, bound| {
+                let photon = map.tree.index(found.slot);
+                if own.binary_search(&photon).is_err() {
+                    rejected.push(photon);
+                }
+                bound
+            });
+            used.append(&mut own);
+            sum = sum.with(&part);
+        }
+        rejected.sort_unstable();
+        let Estimate { irradiance, radius, inside, relative_error, .. } = sum.estimate();
+        Gathered {
+            point: at.point.into(),
+            normal: at.facing.into(),
+            irradiance,
+            radius,
+            inside,
+            relative_error,
+            used,
+            rejected,
+        }
+    }
+
+    /// Photons of a map, weighted and summed; each is told to `used`.
+    fn sum(&self, map: &Map, at: &Surface, which: Which, scratch: &mut Scratch, used: &mut impl FnMut(u32)) -> Sum {
+        let Gathering { nearest, kernel, max_radius } = self.gathering;
+        let trees = &*self.trees;
+        let group = trees.ground.group_of(at);
+        let kinds = which.kinds();
+        let passes = |found: &Found| match which {
+            Which::Filtered(filter) => filter.passes[trees.path_of[map.tree.index(found.slot) as usize] as usize],
+            _ => true,
+        };
+        let counts =
+            |found: &Found| found.tag >> KIND_BITS == group && kinds >> (found.tag & 0b11) & 1 == 1 && passes(found);
+        scratch.nearest.begin(nearest.unwrap_or(usize::MAX));
+        map.tree.search(at.point, max_radius * max_radius, |found, bound| {
+            if counts(&found) { scratch.nearest.add(&found, bound) } else { bound }
+        });
+        // The farthest is on the rim: of the photons within, there is one less, and no bias (facts of order statistics).
+        let rim = scratch.nearest.end();
+        let mut sum = Sum::new(rim.map_or(max_radius, f32::sqrt), 1.0);
+        let points = scratch.nearest.points();
+        let within = points.len() - usize::from(rim.is_some());
+        for (square_distance, slot) in points.take(within) {
+            let photon = map.tree.index(slot);
+            sum.add(trees.photons[photon as usize].flux, square_distance, kernel);
+            used(photon);
+        }
+        sum.scale(map.scale);
+        sum
+    }
+}
