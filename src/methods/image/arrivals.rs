@@ -31,8 +31,8 @@ impl ArrivalMaps {
     pub fn new(maps: Arc<PhotonMaps>) -> Self {
         let mesh = &maps.transport().world.mesh;
         let element = |photon: &Photon| {
-            let location = mesh.locate(photon.side / 2, photon.side.is_multiple_of(2), photon.position.into());
-            location.map_or(NOWHERE, |location| location.element)
+            let element = mesh.element_at(photon.side / 2, photon.side.is_multiple_of(2), photon.position.into());
+            element.unwrap_or(NOWHERE)
         };
         let elements = maps.photons().par_iter().map(element).collect();
         let (all, caustic) = (OnceLock::new(), OnceLock::new());
@@ -62,8 +62,8 @@ impl ArrivalMaps {
     }
 
     fn at(&self, irradiance: &[Rgb], surface: &Surface) -> Rgb {
-        let location = self.maps.transport().world.mesh.locate(surface.polygon, surface.is_front, surface.point);
-        location.map_or(Rgb::ZERO, |location| irradiance[location.element as usize])
+        let element = self.maps.transport().world.mesh.element_at(surface.polygon, surface.is_front, surface.point);
+        element.map_or(Rgb::ZERO, |element| irradiance[element as usize])
     }
 
     /// E of each element by photons that pass, W/m². On one thread: those that wait for it must not be given other work.
