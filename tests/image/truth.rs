@@ -11,12 +11,14 @@ use lightwell::tracer::Ray;
 use rayon::prelude::*;
 
 /// What a region of a picture shows, W/(m²·sr) summed over RGB, with its standard error, and the mean of each channel.
+#[allow(dead_code, reason = "only the tests ask for parts of pictures")]
 pub struct Region {
     pub total: Moments,
     pub mean: Rgb,
 }
 
 /// Mean radiance of a rectangle, in shares of a square picture from the top left, by so many paths.
+#[allow(dead_code, reason = "only the tests ask for parts of pictures")]
 pub fn region(transport: &Transport, camera: &Camera, x: [f32; 2], y: [f32; 2], paths: u64) -> Region {
     const SIZE: f32 = 512.0;
     let path = |index: u64| {
@@ -31,6 +33,21 @@ pub fn region(transport: &Transport, camera: &Camera, x: [f32; 2], y: [f32; 2], 
         total.add(f64::from(path.element_sum()));
     }
     Region { total, mean: paths.iter().sum::<Rgb>() / paths.len() as f32 }
+}
+
+/// Mean radiance of a pixel by so many paths, W/(m²·sr), and the variance of that mean.
+#[allow(dead_code, reason = "only the bench asks for whole pictures")]
+pub fn pixel(transport: &Transport, camera: &Camera, at: [u32; 2], size: [u32; 2], paths: u64) -> (Rgb, Rgb) {
+    let mut stream = Stream::new(18, u64::from(at[0]), u64::from(at[1]));
+    let (mut sum, mut squares) = (Rgb::ZERO, Rgb::ZERO);
+    for _ in 0..paths {
+        let place = stream.uniform2() + glam::Vec2::new(at[0] as f32, at[1] as f32);
+        let path = radiance(transport, camera.ray(place.to_array(), size), &mut stream);
+        sum += path;
+        squares += path * path;
+    }
+    let mean = sum / paths as f32;
+    (mean, (squares / paths as f32 - mean * mean).max(Rgb::ZERO) / paths as f32)
 }
 
 /// One path: light from the lamps at each diffuse surface; after anything else, lamps count where they are met.

@@ -66,6 +66,9 @@ impl EyePath {
                 sight.radiance += throughput * leaving;
                 sight.rays += rays;
             }
+            if !bsdf.is_specular() {
+                break;
+            }
             let Some(sample) = bsdf.only(Scattering::Specular).sample(throughput, &mut draws.stream) else { break };
             throughput *= sample.weight * sample.narrowing;
             if event >= FREE_EVENTS {

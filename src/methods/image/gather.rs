@@ -39,10 +39,11 @@ impl DiffuseLight for GatherLight {
         radiance += self.caustics.leaving(seen, draws, scratch).0;
         // Well spread rays where the eye looks directly; behind a mirror one is enough.
         let count = if seen.to_eye.is_empty() { self.gather_rays } else { 1 };
+        let around = frame(seen.surface.normal);
         let mut sum = Rgb::ZERO;
         for i in 0..count {
             let at = if count > 1 { draws.spread(Use::Gather, i, count) } else { draws.stream.uniform2() };
-            let direction = frame(seen.surface.normal) * cosine_hemisphere(at);
+            let direction = around * cosine_hemisphere(at);
             if direction.dot(seen.surface.facing) > 0.0 {
                 let ray = self.transport.leave(seen.surface, direction);
                 // A filter tells paths apart by their last bounces, which are known only without a further one.
@@ -75,6 +76,9 @@ impl GatherLight {
                     let irradiance = self.arrivals.irradiance(&self.matcher, &surface, event, to_eye);
                     radiance += throughput * bsdf.diffuse() * irradiance / PI;
                 }
+            }
+            if !bsdf.is_specular() {
+                break;
             }
             let Some(sample) = bsdf.only(Scattering::Specular).sample(throughput, &mut draws.stream) else { break };
             throughput *= sample.weight * sample.narrowing;
