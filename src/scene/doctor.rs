@@ -61,6 +61,7 @@ pub enum FindingKind {
     NonFiniteVertex,
     MalformedLine,
     IndexOutOfRange,
+    NormalIgnored,
     UnusedVertices,
     SceneMoved,
     MissingMaterialFile,
