@@ -70,6 +70,8 @@ pub enum FindingKind {
     ReflectanceClamped,
     TextureIgnored,
     SpecularIgnored,
+    SpecularScaled,
+    FilterInverted,
     NoEmitter,
     EmitterTurned,
     EmitterMoved,

@@ -1,5 +1,6 @@
 //! Mirrors, glass and gloss against the laws of optics.
 
+mod materials;
 mod normals;
 #[path = "../common/shapes.rs"]
 mod shapes;
