@@ -70,7 +70,31 @@ const CORPUS: &[(&str, Expected)] = &[
     ),
     (
         "malformed-face.obj",
-        Opens(1, &[(MalformedLine, "line 8"), (MalformedLine, "line 9"), (MalformedLine, "line 10")]),
+        Opens(
+            1,
+            &[
+                (NormalIgnored, "line 7"),
+                (MalformedLine, "line 8"),
+                (MalformedLine, "line 9"),
+                (MalformedLine, "line 10"),
+            ],
+        ),
+    ),
+    (
+        "bad-normals.obj",
+        Opens(
+            11,
+            &[
+                (NormalIgnored, "normal 1, line 9"),
+                (NormalIgnored, "line 21"),
+                (NormalIgnored, "line 22"),
+                (NormalIgnored, "line 23"),
+                (NormalIgnored, "normal 2, line 10"),
+                (NormalIgnored, "normal 3, line 11"),
+                (NormalIgnored, "normal 4, line 12"),
+                (NormalIgnored, "object 'unnamed', line 25"),
+            ],
+        ),
     ),
     (
         "degenerate.obj",

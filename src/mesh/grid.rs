@@ -160,7 +160,7 @@ impl Shape {
 }
 
 /// Newton's method: the bilinear map of a convex quad has one solution there, and is nearly linear, so that a few steps
-/// reach rounding.
+/// reach rounding. Of a parallelogram it is linear, and the first one does.
 fn bilinear_coordinates([a, b, c, d]: [DVec3; 4], point: DVec3) -> DVec2 {
     let (along, across, twist) = (b - a, d - a, a - b + c - d);
     let mut at = DVec2::splat(0.5);
@@ -169,7 +169,11 @@ fn bilinear_coordinates([a, b, c, d]: [DVec3; 4], point: DVec3) -> DVec2 {
         let (du, dv) = (along + at.y * twist, across + at.x * twist);
         let normal = du.cross(dv);
         let scale = 1.0 / normal.length_squared();
-        at -= DVec2::new(error.cross(dv).dot(normal), du.cross(error).dot(normal)) * scale;
+        let step = DVec2::new(error.cross(dv).dot(normal), du.cross(error).dot(normal)) * scale;
+        at -= step;
+        if step.abs().max_element() < f64::EPSILON {
+            break;
+        }
     }
     at
 }

@@ -6,6 +6,7 @@
 //! keywords set off by tabs, and coordinates of more digits than single precision has.
 
 use super::doctor::{Finding, FindingKind};
+use glam::{DVec3, Vec3};
 use std::borrow::Cow;
 
 /// Largest coordinate that is accepted, m. The squared length of a cross product of two edges reaches 192 c⁴ for
@@ -25,8 +26,10 @@ pub struct CheckedObj {
     /// OBJ text with `v`, `f` (absolute position indices only), `o` and `usemtl` lines, each of them usable; all `v` lines
     /// come first.
     pub text: String,
-    /// Line of each face of `text`, in order.
-    pub face_lines: Vec<u32>,
+    /// Each face of `text`, in order.
+    pub faces: Vec<CheckedFace>,
+    /// Unit vectors, one for each `vn` line; `None` for one that states no direction.
+    pub normals: Vec<Option<Vec3>>,
     /// How many `f` lines the file has, usable or not.
     pub face_count: usize,
     /// Line and argument of each `mtllib`.
@@ -36,6 +39,15 @@ pub struct CheckedObj {
     /// Line of the first usable face that stands before any `usemtl`.
     pub first_bare_face: Option<u32>,
     pub findings: Vec<Finding>,
+}
+
+/// What the text for the parser does not say of a face.
+#[derive(Debug)]
+pub struct CheckedFace {
+    /// Its line in the file.
+    pub line: u32,
+    /// For each corner an index into [`CheckedObj::normals`], where the file states them.
+    pub normals: Option<Vec<u32>>,
 }
 
 /// Physical lines joined where one ends in a backslash, with the number of the first one, from 1.
@@ -90,11 +102,12 @@ pub fn check_obj(text: &str) -> CheckedObj {
         let Some((keyword, rest)) = keyword_and_rest(&line) else { continue };
         match keyword {
             "v" => checker.vertex(number, rest),
+            "vn" => checker.normal(number, rest),
             "f" | "fo" => checker.face(number, rest),
             "o" | "g" => checker.object(name(rest)),
             "usemtl" => checker.use_material(number, name(rest)),
             "mtllib" => checker.output.libraries.push((number, name(rest).to_owned())),
-            // Normals and texture coordinates, points, lines, smoothing groups, curves: light does not need them.
+            // Texture coordinates, points, lines, smoothing groups, curves: light does not need them.
             _ => {}
         }
     }
@@ -104,6 +117,7 @@ pub fn check_obj(text: &str) -> CheckedObj {
 struct Checker {
     output: CheckedObj,
     vertices: Vec<Vertex>,
+    normals: Vec<Normal>,
     object: String,
 }
 
@@ -115,18 +129,27 @@ struct Vertex {
     is_used: bool,
 }
 
+/// A `vn` line.
+struct Normal {
+    line: u32,
+    /// A unit vector, or why there is none.
+    direction: Result<Vec3, String>,
+    is_reported: bool,
+}
+
 impl Checker {
     fn new() -> Self {
         let output = CheckedObj {
             text: format!("o {UNNAMED}\n"),
-            face_lines: Vec::new(),
+            faces: Vec::new(),
+            normals: Vec::new(),
             face_count: 0,
             libraries: Vec::new(),
             material_uses: Vec::new(),
             first_bare_face: None,
             findings: Vec::new(),
         };
-        Self { output, vertices: Vec::new(), object: UNNAMED.to_owned() }
+        Self { output, vertices: Vec::new(), normals: Vec::new(), object: UNNAMED.to_owned() }
     }
 
     fn vertex(&mut self, number: u32, rest: &str) {
@@ -142,13 +165,22 @@ impl Checker {
         self.vertices.push(Vertex { line: number, position, is_used: false });
     }
 
+    fn normal(&mut self, number: u32, rest: &str) {
+        let direction = parse_numbers(rest).and_then(|[x, y, z]| {
+            let direction = DVec3::new(x, y, z).try_normalize().ok_or("it has no direction")?;
+            Ok(direction.as_vec3())
+        });
+        self.normals.push(Normal { line: number, direction, is_reported: false });
+    }
+
     fn face(&mut self, number: u32, rest: &str) {
         self.output.face_count += 1;
         match self.corners(rest) {
             Ok(corners) => {
                 let corners: String = corners.iter().map(|c| format!(" {}", c + 1)).collect();
                 self.output.text += &format!("f{corners}\n");
-                self.output.face_lines.push(number);
+                let normals = self.normals(number, rest);
+                self.output.faces.push(CheckedFace { line: number, normals });
                 if self.output.material_uses.is_empty() {
                     self.output.first_bare_face.get_or_insert(number);
                 }
@@ -178,22 +210,57 @@ impl Checker {
         }
     }
 
-    /// The vertex of one `v/vt/vn` word, as an index from 0. Negative indices count back from the last vertex above.
+    /// The vertex of one `v/vt/vn` word, as an index from 0.
     fn corner(&self, word: &str) -> Result<usize, (FindingKind, String)> {
         let index = word.split('/').next().unwrap_or("");
         let Ok(index) = index.parse::<i64>() else {
             return Err((FindingKind::MalformedLine, format!("`{word}` is no vertex index")));
         };
         let count = self.vertices.len();
-        let from_zero = if index > 0 { index - 1 } else { index + count as i64 };
-        match usize::try_from(from_zero) {
-            // Index 0, which the format does not know, falls behind the last vertex.
-            Ok(corner) if corner < count => Ok(corner),
-            _ => {
-                let problem = format!("vertex {index} does not exist ({count} vertices stand above this line)");
-                Err((FindingKind::IndexOutOfRange, problem))
+        from_zero(index, count).ok_or_else(|| {
+            let problem = format!("vertex {index} does not exist ({count} vertices stand above this line)");
+            (FindingKind::IndexOutOfRange, problem)
+        })
+    }
+
+    /// The normals of a face's corners; `None` where it states none that can be used.
+    fn normals(&mut self, number: u32, rest: &str) -> Option<Vec<u32>> {
+        let stated: Vec<&str> = words(rest).map(|word| word.split('/').nth(2).unwrap_or("")).collect();
+        if stated.iter().all(|index| index.is_empty()) {
+            return None;
+        }
+        let count = self.normals.len();
+        let normal = |index: &&str| match index.parse().map(|index| from_zero(index, count)) {
+            Ok(Some(normal)) => Ok(normal),
+            Ok(None) => Err(format!("normal {index} does not exist ({count} normals stand above this line)")),
+            Err(_) if index.is_empty() => Err("only some of its corners have a normal".to_owned()),
+            Err(_) => Err(format!("`{index}` is no index of a normal")),
+        };
+        match stated.iter().map(normal).collect::<Result<Vec<usize>, _>>() {
+            Ok(normals) => self.are_usable(&normals).then(|| normals.into_iter().map(|n| n as u32).collect()),
+            Err(problem) => {
+                let subject = format!("object '{}', line {number}", self.object);
+                let remedy = "the face counts as flat";
+                self.output.findings.push(Finding::warning(FindingKind::NormalIgnored, subject, problem, remedy));
+                None
             }
         }
+    }
+
+    /// Whether all of these normals have a direction. One that has none is reported once.
+    fn are_usable(&mut self, normals: &[usize]) -> bool {
+        let mut are_usable = true;
+        for &index in normals {
+            let normal = &mut self.normals[index];
+            let Err(problem) = &normal.direction else { continue };
+            are_usable = false;
+            if !std::mem::replace(&mut normal.is_reported, true) {
+                let subject = format!("normal {}, line {}", index + 1, normal.line);
+                let remedy = "faces that use it count as flat";
+                self.output.findings.push(Finding::warning(FindingKind::NormalIgnored, subject, problem, remedy));
+            }
+        }
+        are_usable
     }
 
     fn object(&mut self, name: &str) {
@@ -223,6 +290,7 @@ impl Checker {
             let problem = format!("{unused} of {} vertices belong to no face", self.vertices.len());
             self.output.findings.push(Finding::note(FindingKind::UnusedVertices, "the file", problem, "left out"));
         }
+        self.output.normals = self.normals.iter().map(|normal| normal.direction.clone().ok()).collect();
         let origin = self.origin();
         if origin != [0.0; 3] {
             let [x, y, z] = origin;
@@ -265,9 +333,17 @@ impl Checker {
     }
 }
 
+/// An index of the file as one from 0. Negative ones count back from the last of the `count` that stand above. `None` where
+/// there is no such thing.
+fn from_zero(index: i64, count: usize) -> Option<usize> {
+    let from_zero = if index > 0 { index - 1 } else { index.saturating_add(count as i64) };
+    // Index 0, which the format does not know, falls behind the last one.
+    usize::try_from(from_zero).ok().filter(|&place| place < count)
+}
+
 /// A fourth number (the weight of rational curves) and vertex colours mean nothing to polygons here.
 fn usable_position(rest: &str) -> Result<[f64; 3], (FindingKind, String)> {
-    let position = parse_position(rest).map_err(|problem| (FindingKind::MalformedLine, problem))?;
+    let position = parse_numbers(rest).map_err(|problem| (FindingKind::MalformedLine, problem))?;
     // What single precision has no number for counts as infinite.
     if position.iter().any(|coordinate| !(*coordinate as f32).is_finite()) {
         return Err((FindingKind::NonFiniteVertex, "a coordinate is not a finite number".to_owned()));
@@ -278,12 +354,12 @@ fn usable_position(rest: &str) -> Result<[f64; 3], (FindingKind, String)> {
     Ok(position)
 }
 
-fn parse_position(rest: &str) -> Result<[f64; 3], String> {
+fn parse_numbers(rest: &str) -> Result<[f64; 3], String> {
     let mut words = words(rest);
-    let mut position = [0.0_f64; 3];
-    for coordinate in &mut position {
-        let word = words.next().ok_or("a vertex needs three coordinates")?;
-        *coordinate = word.parse().map_err(|_| format!("`{word}` is no number"))?;
+    let mut numbers = [0.0_f64; 3];
+    for number in &mut numbers {
+        let word = words.next().ok_or("it needs three coordinates")?;
+        *number = word.parse().map_err(|_| format!("`{word}` is no number"))?;
     }
-    Ok(position)
+    Ok(numbers)
 }

@@ -8,6 +8,7 @@ mod material;
 mod mtl;
 mod obj;
 mod polygonize;
+mod smooth;
 
 pub use builtin::{BUILTINS, Builtin};
 pub use doctor::{Finding, FindingKind, Severity};
@@ -26,6 +27,8 @@ pub struct Scene {
     pub source: Source,
     /// Corner positions; every polygon's corners index into them.
     pub positions: Vec<Vec3>,
+    /// Unit vectors: normals at corners of polygons that stand for a smooth surface.
+    pub normals: Vec<Vec3>,
     /// Triangles and planar convex quads, in the order of the file.
     pub polygons: Vec<Polygon>,
     /// Never empty where there is a polygon: polygons without a material share a grey one.
@@ -57,11 +60,6 @@ impl Scene {
     /// [`SceneError::Empty`] where no face can be used.
     pub fn from_text(name: &'static str, obj: &str, mtl: &str) -> Result<Self, SceneError> {
         obj::read(obj, name, Source::Builtin(name), name, &mut |_| Ok(mtl.to_owned()))
-    }
-
-    /// Unit normal at a point of a polygon, of the smooth surface that it stands for; `None` where the file states none.
-    pub fn shading_normal(&self, _polygon: usize, _point: Vec3) -> Option<Vec3> {
-        None
     }
 
     fn open_file(path: &Path) -> Result<Self, SceneError> {
@@ -102,6 +100,8 @@ pub enum Source {
 pub struct Polygon {
     corners: [u32; 4],
     corner_count: u8,
+    /// Indices into [`Scene::normals`], corner by corner.
+    normals: Option<[u32; 4]>,
     /// Index into [`Scene::materials`].
     pub material: u32,
     /// Index into [`Scene::objects`].
@@ -117,21 +117,59 @@ impl Polygon {
     /// If there are fewer than three or more than four corners.
     pub fn new(corners: &[u32], material: u32, object: u32, line: u32) -> Self {
         assert!((3..=4).contains(&corners.len()), "a polygon has three or four corners");
-        let mut padded = [corners[2]; 4];
-        padded[..corners.len()].copy_from_slice(corners);
-        Self { corners: padded, corner_count: corners.len() as u8, material, object, line }
+        Self { corners: padded(corners), corner_count: corners.len() as u8, normals: None, material, object, line }
+    }
+
+    /// The same polygon standing for a smooth surface that has these normals at its corners: indices of
+    /// [`Scene::normals`].
+    ///
+    /// # Panics
+    /// If there are not as many as corners.
+    #[must_use]
+    pub fn with_normals(self, normals: &[u32]) -> Self {
+        assert_eq!(normals.len(), self.corners().len(), "every corner has its normal");
+        Self { normals: Some(padded(normals)), ..self }
+    }
+
+    /// The same polygon standing for nothing but itself.
+    #[must_use]
+    pub fn without_normals(self) -> Self {
+        Self { normals: None, ..self }
+    }
+
+    /// The same polygon at other corners.
+    ///
+    /// # Panics
+    /// If there are not as many as before.
+    #[must_use]
+    pub fn at_corners(self, corners: &[u32]) -> Self {
+        assert_eq!(corners.len(), self.corners().len(), "a polygon keeps its corners' number");
+        Self { corners: padded(corners), ..self }
     }
 
     /// The same face with its front and back exchanged.
+    #[must_use]
     pub fn turned(&self) -> Self {
-        let corners: Vec<u32> = self.corners().iter().rev().copied().collect();
-        Self::new(&corners, self.material, self.object, self.line)
+        let reversed = |ring: &[u32]| padded(&ring.iter().rev().copied().collect::<Vec<u32>>());
+        Self { corners: reversed(self.corners()), normals: self.normals().map(reversed), ..*self }
     }
 
     /// Indices of the corner positions, counter-clockwise seen from the front.
     pub fn corners(&self) -> &[u32] {
         &self.corners[..self.corner_count as usize]
     }
+
+    /// Indices of the normals at its corners, where it stands for a smooth surface.
+    pub fn normals(&self) -> Option<&[u32]> {
+        self.normals.as_ref().map(|normals| &normals[..self.corner_count as usize])
+    }
+}
+
+/// Three or four indices in the room of four.
+fn padded(indices: &[u32]) -> [u32; 4] {
+    let mut padded = [indices[2]; 4];
+    padded[..indices.len()].copy_from_slice(indices);
+    padded
 }
 
 /// A pinhole camera's place and lens.

@@ -1,7 +1,12 @@
 //! Material libraries (MTL), read statement by statement, so that a value out of its range is mended by name and line.
 //!
 //! `Tf` is what a material lets through where it is transparent, per channel, as the format's specification has it:
-//! 1 means all. It says nothing about opaque materials, for which exporters often write `Tf 1 1 1`.
+//! 1 means all, and `0 1 0` is green glass. It says nothing about opaque materials, for which exporters often write
+//! `Tf 1 1 1`. There are files, though, that state what is kept back: the glass ball and the water of McGuire's Computer
+//! Graphics Archive have `Tf 0.1 0.1 0.1`, and are clear in its pictures and in Jensen's (2001), of which they are copies.
+//! With the specification's reading one hundredth of the light would come through a ball. A grey `Tf` below one half is
+//! therefore taken for the share that is kept back, and a finding says so. A coloured one has its colour either way, so it
+//! is left alone.
 
 use super::doctor::{Finding, FindingKind};
 use super::lines::{keyword_and_rest, logical_lines, name, words};
@@ -192,20 +197,49 @@ impl Entry {
 
     /// The material and everything that there is to say about it, once it is known to be used.
     pub fn into_material_and_findings(self) -> (Material, Vec<Finding>) {
-        let Self { material, mut findings, states_diffuse, .. } = self;
+        let Self { mut material, mut findings, states_diffuse, .. } = self;
         let subject = format!("material '{}'", material.name);
         if !states_diffuse {
             let problem = "it states no diffuse reflectance (Kd)";
             let remedy = format!("{} is used", material.diffuse.x);
             findings.push(Finding::note(FindingKind::MissingMaterial, &subject, problem, remedy));
         }
-        if material.is_specular() {
+        findings.extend(leave_specular_light_the_rest(&mut material, &subject));
+        if material.lobes().is_specular() {
+            findings.extend(read_dark_filter_as_opacity(&mut material, &subject));
             let problem = "it asks for a mirror, gloss or transparency";
-            let remedy = "treated as its diffuse part only";
-            findings.push(Finding::warning(FindingKind::SpecularIgnored, &subject, problem, remedy));
+            let remedy = "rays and photons follow it; radiosity takes its diffuse part only";
+            findings.push(Finding::note(FindingKind::SpecularIgnored, &subject, problem, remedy));
         }
         (material, findings)
     }
+}
+
+/// Scales `Ks` where more light would be reflected than arrives.
+fn leave_specular_light_the_rest(material: &mut Material, subject: &str) -> Option<Finding> {
+    let scale = material.specular_scale();
+    (scale < 1.0).then(|| {
+        let (diffuse, stated) = (material.diffuse, material.specular);
+        material.specular = (scale * stated).min(Rgb::ONE - diffuse);
+        let problem =
+            format!("Kd {} and Ks {} together reflect more than arrives", channels(diffuse), channels(stated));
+        let remedy = format!("Ks is scaled by {scale:.3} to {}", channels(material.specular));
+        Finding::warning(FindingKind::SpecularScaled, subject, problem, remedy)
+    })
+}
+
+/// Reads `Tf` of a transparent material as what is kept back, where it would let next to nothing through.
+fn read_dark_filter_as_opacity(material: &mut Material, subject: &str) -> Option<Finding> {
+    let stated = material.transmission;
+    let lobes = material.lobes();
+    let is_transparent = lobes.glass > 0.0 || material.opacity < 1.0;
+    let is_dark_grey = stated.max_element() < 0.5 && stated.min_element() == stated.max_element();
+    (is_transparent && is_dark_grey).then(|| {
+        material.transmission = Rgb::ONE - stated;
+        let problem = format!("it is transparent, but Tf {} would let next to nothing through", channels(stated));
+        let remedy = format!("Tf is read as the share that is kept back; {} passes", channels(material.transmission));
+        Finding::warning(FindingKind::FilterInverted, subject, problem, remedy)
+    })
 }
 
 /// What a colour states, which decides its range.

@@ -1,10 +1,11 @@
 //! From the text of an OBJ file and its material libraries to a scene.
 
 use super::doctor::{Finding, FindingKind};
-use super::lines::{self, CheckedObj};
+use super::lines::{self, CheckedFace, CheckedObj};
 use super::material::Material;
 use super::mtl::Library;
 use super::polygonize::{Shape, polygonize, without_repeated_corners};
+use super::smooth::{Smoothness, drop_unused_normals, keep_used, smoothness};
 use super::{Polygon, Scene, SceneError, Source};
 use glam::Vec3;
 use std::collections::{HashMap, HashSet};
@@ -27,14 +28,14 @@ pub fn read(
     let library = load_libraries(&checked.libraries, load_library, &mut findings);
     report_missing_materials(&checked, &library, &mut findings);
     let empty = |reason: String| SceneError::Empty { path: path.to_owned(), reason };
-    if checked.face_lines.is_empty() {
+    if checked.faces.is_empty() {
         return Err(empty(why_no_face(text, &checked, &findings)));
     }
     let models = parse(&checked.text, &library).map_err(|error| empty(error.to_string()))?;
-    let mut assembler = Assembler::new(library, findings);
-    let mut face_lines = checked.face_lines.iter().copied();
+    let mut assembler = Assembler::new(library, findings, std::mem::take(&mut checked.normals));
+    let mut faces = checked.faces.iter();
     for model in &models {
-        assembler.model(model, &mut face_lines);
+        assembler.model(model, &mut faces);
     }
     if assembler.polygons.is_empty() {
         return Err(empty(why_no_face(text, &checked, &assembler.findings)));
@@ -116,6 +117,8 @@ struct Assembler {
     library: Library,
     findings: Vec<Finding>,
     positions: Vec<Vec3>,
+    /// As the file has them; no face that names one that is missing is left.
+    normals: Vec<Vec3>,
     polygons: Vec<Polygon>,
     /// For each material of the scene its place in the library; `None` is the grey one.
     materials: Vec<Option<usize>>,
@@ -128,11 +131,12 @@ struct Assembler {
 }
 
 impl Assembler {
-    fn new(library: Library, findings: Vec<Finding>) -> Self {
+    fn new(library: Library, findings: Vec<Finding>, normals: Vec<Option<Vec3>>) -> Self {
         Self {
             library,
             findings,
             positions: Vec::new(),
+            normals: normals.into_iter().map(Option::unwrap_or_default).collect(),
             polygons: Vec::new(),
             materials: Vec::new(),
             objects: Vec::new(),
@@ -143,9 +147,9 @@ impl Assembler {
         }
     }
 
-    /// Adds the faces of one model: one object's with one material. The parser keeps the faces' order, so their lines
-    /// come one after the other from `lines`.
-    fn model(&mut self, model: &tobj::Model, lines: &mut impl Iterator<Item = u32>) {
+    /// Adds the faces of one model: one object's with one material. The parser keeps the faces' order, so what it was not
+    /// told of them comes one after the other from `faces`.
+    fn model<'a>(&mut self, model: &tobj::Model, faces: &mut impl Iterator<Item = &'a CheckedFace>) {
         let mesh = &model.mesh;
         if mesh.indices.is_empty() {
             return;
@@ -156,25 +160,34 @@ impl Assembler {
         // The parser leaves the arities out where all faces are triangles.
         let all_triangles = vec![3; if mesh.face_arities.is_empty() { mesh.indices.len() / 3 } else { 0 }];
         let mut rest = mesh.indices.as_slice();
-        for (&arity, line) in mesh.face_arities.iter().chain(&all_triangles).zip(lines) {
+        for (&arity, checked) in mesh.face_arities.iter().chain(&all_triangles).zip(faces) {
             let (face, after) = rest.split_at(arity as usize);
             rest = after;
             let corners: Vec<u32> = face.iter().map(|&corner| welded[corner as usize]).collect();
-            self.face(&corners, material, object, line);
+            self.face(&corners, checked, material, object);
         }
     }
 
-    fn face(&mut self, corners: &[u32], material: u32, object: u32, line: u32) {
-        let corners = without_repeated_corners(corners);
+    fn face(&mut self, corners: &[u32], checked: &CheckedFace, material: u32, object: u32) {
+        let line = checked.line;
+        let ring = without_repeated_corners(corners);
+        let corners: Vec<u32> = ring.iter().map(|&place| corners[place]).collect();
         let subject = format!("object '{}', line {line}", self.objects[object as usize]);
         if let Some(finding) = self.duplicate(&corners, material, line, &subject) {
             self.findings.push(finding);
             return;
         }
+        let first = self.polygons.len();
         let polygons = &mut self.polygons;
         let shape = polygonize(&self.positions, &corners, &mut |piece| {
-            polygons.push(Polygon::new(piece, material, object, line));
+            let pick = |from: &dyn Fn(usize) -> u32| piece.iter().map(|&place| from(place)).collect::<Vec<u32>>();
+            let polygon = Polygon::new(&pick(&|place| corners[place]), material, object, line);
+            polygons.push(match &checked.normals {
+                Some(normals) => polygon.with_normals(&pick(&|place| normals[ring[place]])),
+                None => polygon,
+            });
         });
+        self.keep_smooth_normals(first, &subject);
         let (kind, problem, remedy) = match shape {
             Shape::Planar => return,
             Shape::Warped(share) => {
@@ -195,6 +208,24 @@ impl Assembler {
             Shape::Degenerate => (FindingKind::DegenerateFace, "the face has no area".to_owned(), "left out"),
         };
         self.findings.push(Finding::note(kind, subject, problem, remedy));
+    }
+
+    /// Leaves the pieces of a face, from polygon `first` on, the normals that say more than their planes.
+    fn keep_smooth_normals(&mut self, first: usize, subject: &str) {
+        let mut has_contrary_normals = false;
+        for polygon in &mut self.polygons[first..] {
+            match smoothness(&self.positions, &self.normals, polygon) {
+                Smoothness::Smooth => continue,
+                Smoothness::Flat => {}
+                Smoothness::Contrary => has_contrary_normals = true,
+            }
+            *polygon = polygon.without_normals();
+        }
+        if has_contrary_normals {
+            let problem = "its normals are not all on one side of it";
+            let finding = Finding::warning(FindingKind::NormalIgnored, subject, problem, "the face counts as flat");
+            self.findings.push(finding);
+        }
     }
 
     /// Whether a face with the same corners, in any order, came before.
@@ -239,8 +270,9 @@ impl Assembler {
     }
 
     fn finish(self, name: &str, source: Source) -> Scene {
-        let Self { library, mut findings, mut positions, mut polygons, materials, objects, .. } = self;
+        let Self { library, mut findings, mut positions, mut normals, mut polygons, materials, objects, .. } = self;
         drop_unused_positions(&mut positions, &mut polygons);
+        drop_unused_normals(&mut normals, &mut polygons);
         let mut entries: Vec<_> = library.entries.into_iter().map(Some).collect();
         let mut take = |place: usize| entries[place].take().map(|entry| entry.into_material_and_findings());
         let materials = materials
@@ -253,8 +285,9 @@ impl Assembler {
                 None => Material::grey("grey"),
             })
             .collect();
+        let name = name.to_owned();
         let mut scene =
-            Scene { name: name.to_owned(), source, positions, polygons, materials, objects, viewpoint: None, findings };
+            Scene { name, source, positions, normals, polygons, materials, objects, viewpoint: None, findings };
         if !scene.has_emitter() {
             scene.findings.push(Finding::warning(
                 FindingKind::NoEmitter,
@@ -269,20 +302,8 @@ impl Assembler {
 
 /// Faces that were left out may leave positions behind, far from everything that is seen.
 fn drop_unused_positions(positions: &mut Vec<Vec3>, polygons: &mut [Polygon]) {
-    let mut is_used = vec![false; positions.len()];
-    for &corner in polygons.iter().flat_map(|polygon| polygon.corners()) {
-        is_used[corner as usize] = true;
-    }
-    let mut used_before = 0;
-    let new_index: Vec<u32> = is_used
-        .iter()
-        .map(|&is_used| {
-            used_before += u32::from(is_used);
-            used_before.saturating_sub(1)
-        })
-        .collect();
-    let mut is_used = is_used.into_iter();
-    positions.retain(|_| is_used.next() == Some(true));
+    let used = polygons.iter().flat_map(|polygon| polygon.corners().iter().copied());
+    let new_index = keep_used(positions, used);
     for polygon in polygons {
         polygon.corners = polygon.corners.map(|corner| new_index[corner as usize]);
     }

@@ -31,28 +31,28 @@ pub enum Shape {
     Degenerate,
 }
 
-/// The corners of a face without consecutive repetitions, in the sense of a ring.
-pub fn without_repeated_corners(corners: &[u32]) -> Vec<u32> {
-    let mut ring = corners.to_vec();
-    ring.dedup();
-    while ring.len() > 1 && ring.first() == ring.last() {
+/// The places in a face's list of corners without those that repeat the one before, in the sense of a ring.
+pub fn without_repeated_corners(corners: &[u32]) -> Vec<usize> {
+    let mut ring: Vec<usize> = (0..corners.len()).collect();
+    ring.dedup_by_key(|place| corners[*place]);
+    while ring.len() > 1 && corners[ring[0]] == corners[ring[ring.len() - 1]] {
         ring.pop();
     }
     ring
 }
 
-/// Cuts a face and hands each piece (indices of three or four positions) to `emit`.
+/// Cuts a face and hands each piece, as three or four places in its list of corners, to `emit`.
 ///
 /// A triangle, and a quad that is planar and convex, stay whole. Another quad is cut along the diagonal that leaves
 /// the larger smallest piece. A face of more corners is triangulated by ear clipping. Its normal is Newell's
 /// (Sutherland, Sproull, Schumacker 1974).
-pub fn polygonize(positions: &[Vec3], corners: &[u32], emit: &mut impl FnMut(&[u32])) -> Shape {
+pub fn polygonize(positions: &[Vec3], corners: &[u32], emit: &mut impl FnMut(&[usize])) -> Shape {
     let Some(face) = Face::new(positions, corners) else { return Shape::Degenerate };
     let shape = face.shape();
     let triangles = match corners.len() {
         3 => vec![[0, 1, 2]],
         4 if shape == Shape::Planar && face.is_convex_quad() => {
-            emit(corners);
+            emit(&[0, 1, 2, 3]);
             return shape;
         }
         4 => face.cut_quad(),
@@ -62,7 +62,7 @@ pub fn polygonize(positions: &[Vec3], corners: &[u32], emit: &mut impl FnMut(&[u
     for triangle in triangles {
         covered += face.signed_area(triangle).abs();
         if !face.is_sliver(triangle) {
-            emit(&triangle.map(|corner| corners[corner]));
+            emit(&triangle);
         }
     }
     // Triangles that overlap or face backwards cover more than the outline encloses.

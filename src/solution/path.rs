@@ -144,6 +144,11 @@ fn compiled(text: &str) -> Result<Regex, regex::Error> {
 pub struct PathMatcher(Option<Regex>);
 
 impl PathMatcher {
+    /// Whether every path passes.
+    pub fn passes_all(&self) -> bool {
+        self.0.is_none()
+    }
+
     /// Whether light passes that came along `from_light`, met one surface more if `landing` says so, and then went over
     /// `to_eye`, the events met from the eye backwards, into the eye.
     pub fn passes(&self, from_light: Path, landing: Option<Scattering>, to_eye: Path) -> bool {

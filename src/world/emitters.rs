@@ -6,7 +6,7 @@ use super::{TOUCHING, triangles};
 use crate::math::bounds::Bounds;
 use crate::math::random::Stream;
 use crate::mesh::side_index;
-use crate::scene::{Finding, FindingKind, Polygon, Scene, Severity};
+use crate::scene::{Finding, FindingKind, Scene, Severity};
 use crate::tracer::{Ray, Tracer};
 use glam::{Vec3, Vec3A};
 use rayon::prelude::*;
@@ -114,7 +114,7 @@ fn move_polygon(scene: &mut Scene, index: usize, step: Vec3) {
             scene.positions.len() as u32 - 1
         })
         .collect();
-    scene.polygons[index] = Polygon::new(&corners, old.material, old.object, old.line);
+    scene.polygons[index] = old.at_corners(&corners);
 }
 
 /// Emitters whose light meets nothing.

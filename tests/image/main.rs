@@ -1,7 +1,9 @@
 //! Pictures from a camera: the making of them, what rays bring, and views against each other and against brute force.
 
+mod agreement;
 mod film;
 mod rays;
+mod truth;
 
 use glam::Vec3;
 use lightwell::camera::Camera;
@@ -9,6 +11,7 @@ use lightwell::cancel::Cancel;
 use lightwell::math::rgb::Rgb;
 use lightwell::mesh::MeshSettings;
 use lightwell::methods::image::{ImageRun, Sources};
+use lightwell::methods::photon_map::PhotonMapping;
 use lightwell::methods::transport::Transport;
 use lightwell::methods::{ImageSettings, Settings, Step};
 use lightwell::scene::{Scene, Viewpoint};
@@ -30,7 +33,14 @@ fn scene(obj: &str, mtl: &str) -> Arc<World> {
 }
 
 fn sources(world: &Arc<World>) -> Sources {
-    Sources { transport: Arc::new(Transport::new(world.clone())), radiosity: None }
+    Sources { transport: Arc::new(Transport::new(world.clone())), radiosity: None, photons: None }
+}
+
+/// The same with all photons of the settings.
+fn with_photons(sources: Sources, settings: &Settings) -> Sources {
+    let mut photons = PhotonMapping::new(sources.transport.clone(), settings);
+    while photons.step(&Cancel::default()) == Step::Advanced {}
+    Sources { photons: Some(photons.maps()), ..sources }
 }
 
 /// The scene's own first view.

@@ -33,7 +33,7 @@ fn direct_light_below_a_lamp_is_its_form_factor() {
     };
     let image = finished(&sources(&world), CameraView::RayTraced, down, [8, 8], &settings);
     // From a point in the middle under a square: facts on form factors, unit squares at gap 1.
-    let form_factor = 0.239456470460774;
+    let form_factor = 0.239_456_47;
     let expected = Rgb::new(0.6, 0.3, 0.9) * 5.0 * form_factor;
     let got = mean(&image, [0.0, 1.0], [0.0, 1.0]);
     // 65,536 stratified points of an integrand that varies by a factor of 3: the error of independent ones would be 0.1 %.

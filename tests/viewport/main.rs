@@ -48,6 +48,7 @@ fn plane_scene(corners: &[u32], scale: f32, offset: Vec3) -> Scene {
         name: "plane".to_owned(),
         source: Source::Builtin("plane"),
         positions: vec![place(-1.0, -1.0, 0.0), place(1.0, -1.0, 0.0), place(1.0, 1.0, 0.0), place(-1.0, 1.0, 0.0)],
+        normals: Vec::new(),
         polygons: vec![Polygon::new(corners, 0, 0, 0)],
         materials: vec![Material { emission: Rgb::ONE, ..Material::grey("glow") }],
         objects: vec!["plane".to_owned()],

@@ -2,6 +2,7 @@
 
 use super::draws::Draws;
 use crate::math::rgb::Rgb;
+use crate::methods::photon_map::Scratch;
 use crate::methods::transport::{Bsdf, Media, Surface, Transport};
 use crate::solution::{Path, PathMatcher, Scattering};
 use crate::tracer::Ray;
@@ -23,7 +24,7 @@ pub struct Seen<'a> {
 /// What is known of the light that diffuse lobes send on.
 pub trait DiffuseLight: Send + Sync {
     /// Radiance that the diffuse lobe of the place sends towards the eye, W/(m²·sr), and the rays that this took.
-    fn leaving(&self, seen: &Seen<'_>, draws: &mut Draws) -> (Rgb, u64);
+    fn leaving(&self, seen: &Seen<'_>, draws: &mut Draws, scratch: &mut Scratch) -> (Rgb, u64);
 }
 
 /// Follows rays from the eye.
@@ -47,7 +48,7 @@ pub struct Sight {
 impl EyePath {
     /// Radiance that arrives along a ray: what surfaces emit and what their diffuse lobes send on, directly and over specular
     /// lobes, one of which is followed at random at each surface.
-    pub fn look(&self, mut ray: Ray, draws: &mut Draws) -> Sight {
+    pub fn look(&self, mut ray: Ray, draws: &mut Draws, scratch: &mut Scratch) -> Sight {
         let mut sight = Sight::default();
         let (mut throughput, mut media, mut to_eye) = (Rgb::ONE, Media::default(), Path::LIGHT);
         for event in 0..MAX_EVENTS {
@@ -61,9 +62,12 @@ impl EyePath {
             let bsdf = self.transport.bsdf(&surface, -ray.direction, &media);
             if bsdf.diffuse() != Rgb::ZERO {
                 let seen = Seen { surface: &surface, bsdf: &bsdf.only(Scattering::Diffuse), to_eye };
-                let (leaving, rays) = self.light.leaving(&seen, draws);
+                let (leaving, rays) = self.light.leaving(&seen, draws, scratch);
                 sight.radiance += throughput * leaving;
                 sight.rays += rays;
+            }
+            if !bsdf.is_specular() {
+                break;
             }
             let Some(sample) = bsdf.only(Scattering::Specular).sample(throughput, &mut draws.stream) else { break };
             throughput *= sample.weight * sample.narrowing;

@@ -5,6 +5,7 @@ use super::eye_path::{EyePath, Sight};
 use crate::camera::Camera;
 use crate::cancel::Cancel;
 use crate::math::rgb::Rgb;
+use crate::methods::photon_map::Scratch;
 use glam::Vec2;
 use rayon::prelude::*;
 
@@ -114,25 +115,26 @@ impl Film {
 
     fn expose_tile(&self, tile: &Tile, cell: u32, path: &EyePath, cancel: &Cancel) -> Option<Vec<Sight>> {
         let mut sights = Vec::with_capacity((TILE * TILE) as usize);
+        let mut scratch = Scratch::default();
         for y in tile.rows.clone() {
             if cancel.is_requested() {
                 return None;
             }
             for x in tile.columns.clone() {
-                sights.push(self.sample([x, y], cell, path));
+                sights.push(self.sample([x, y], cell, path, &mut scratch));
             }
         }
         Some(sights)
     }
 
     /// One sample of a cell: of a coarse one in its middle, of a pixel anywhere in it.
-    fn sample(&self, at: [u32; 2], cell: u32, path: &EyePath) -> Sight {
+    fn sample(&self, at: [u32; 2], cell: u32, path: &EyePath, scratch: &mut Scratch) -> Sight {
         let [x, y] = at.map(|i| i * cell);
         let pixel = u64::from(y) * u64::from(self.size[0]) + u64::from(x);
         let mut draws = Draws::new(self.seed, pixel, self.samples());
         let inside = if cell == 1 { draws.spread(Use::Pixel, 0, 1) } else { Vec2::splat(0.5) };
         let place = Vec2::new(x as f32, y as f32) + inside * cell as f32;
-        path.look(self.camera.ray(place.to_array(), self.size), &mut draws)
+        path.look(self.camera.ray(place.to_array(), self.size), &mut draws, scratch)
     }
 
     fn keep(&mut self, tile: &Tile, width: u32, sights: &[Sight]) {

@@ -4,6 +4,7 @@ use super::direct;
 use super::draws::Draws;
 use super::eye_path::{DiffuseLight, Seen};
 use crate::math::rgb::Rgb;
+use crate::methods::photon_map::Scratch;
 use crate::methods::transport::Transport;
 use crate::solution::{Path, PathMatcher, Scattering, Solution};
 use std::f32::consts::PI;
@@ -17,7 +18,7 @@ pub struct DirectLight {
 }
 
 impl DiffuseLight for DirectLight {
-    fn leaving(&self, seen: &Seen<'_>, draws: &mut Draws) -> (Rgb, u64) {
+    fn leaving(&self, seen: &Seen<'_>, draws: &mut Draws, _scratch: &mut Scratch) -> (Rgb, u64) {
         if !self.matcher.passes(Path::LIGHT, Some(Scattering::Diffuse), seen.to_eye) {
             return (Rgb::ZERO, 0);
         }
@@ -50,7 +51,7 @@ impl RadiosityLight {
 }
 
 impl DiffuseLight for RadiosityLight {
-    fn leaving(&self, seen: &Seen<'_>, _draws: &mut Draws) -> (Rgb, u64) {
+    fn leaving(&self, seen: &Seen<'_>, _draws: &mut Draws, _scratch: &mut Scratch) -> (Rgb, u64) {
         let mesh = &self.transport.world.mesh;
         let location = mesh.locate(seen.surface.polygon, seen.surface.is_front, seen.surface.point);
         let irradiance = location.map_or(Rgb::ZERO, |location| mesh.interpolate(&location, &self.vertex_irradiance));

@@ -1,20 +1,27 @@
 //! Pictures from a camera: rays go from the eye over specular surfaces to diffuse ones, whose light is known from shadow rays,
 //! from a radiosity solution, or from photons.
 
+mod arrivals;
 mod direct;
 mod draws;
 mod eye_path;
 mod film;
+mod gather;
 mod lights;
+mod photon_light;
 
 use crate::camera::Camera;
 use crate::cancel::Cancel;
+use crate::methods::photon_map::PhotonMaps;
 use crate::methods::transport::Transport;
 use crate::methods::{ImageSettings, Settings, Step};
 use crate::solution::{CameraImage, CameraView, PathFilter, Solution};
+use arrivals::ArrivalMaps;
 use eye_path::{DiffuseLight, EyePath};
 use film::Film;
+use gather::GatherLight;
 use lights::{DirectLight, RadiosityLight};
+use photon_light::{PhotonLight, Shown};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -23,6 +30,7 @@ use std::time::Duration;
 pub struct Sources {
     pub transport: Arc<Transport>,
     pub radiosity: Option<Arc<Solution>>,
+    pub photons: Option<Arc<PhotonMaps>>,
 }
 
 impl Sources {
@@ -33,8 +41,22 @@ impl Sources {
                 Box::new(DirectLight { transport, rays: settings.light_rays, matcher: settings.filter.matcher() })
             }
             CameraView::RadiositySpecular => Box::new(RadiosityLight::new(transport, self.radiosity.as_ref()?)),
-            _ => return None,
+            CameraView::PhotonIrradiance => Box::new(self.photon_light(Shown::Irradiance, false, settings)?),
+            CameraView::PhotonRadiance => Box::new(self.photon_light(Shown::Radiance, false, settings)?),
+            CameraView::Caustics => Box::new(self.photon_light(Shown::Radiance, true, settings)?),
+            CameraView::FinalGather => Box::new(GatherLight {
+                transport,
+                caustics: self.photon_light(Shown::Radiance, true, settings)?,
+                arrivals: ArrivalMaps::new(self.photons.clone()?),
+                gather_rays: settings.gather_rays,
+                light_rays: settings.light_rays,
+                matcher: settings.filter.matcher(),
+            }),
         })
+    }
+
+    fn photon_light(&self, shown: Shown, is_caustic: bool, settings: &ImageSettings) -> Option<PhotonLight> {
+        Some(PhotonLight::new(self.photons.clone()?, shown, is_caustic, &settings.filter.matcher()))
     }
 
     fn eye_path(&self, view: CameraView, settings: &ImageSettings) -> Option<EyePath> {

@@ -6,7 +6,7 @@ use super::nearest::Nearest;
 use super::tree::{Entry, Found, Tree};
 use crate::methods::Kernel;
 use crate::methods::transport::{Surface, Transport};
-use crate::solution::{Gathered, Path, PathMatcher, Photon, Scattering, Split};
+use crate::solution::{Gathered, Path, Photon, Split};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -101,6 +101,7 @@ pub(super) struct Trees {
     paths: Vec<Path>,
     /// Which of them each photon took.
     path_of: Vec<u32>,
+    has_caustic_map: bool,
     is_complete: bool,
 }
 
@@ -135,7 +136,7 @@ impl Trees {
             })
         });
         let path_of = path_of.collect();
-        Self { transport, ground, photons, global, caustic, paths, path_of, is_complete }
+        Self { transport, ground, photons, global, caustic, paths, path_of, has_caustic_map, is_complete }
     }
 }
 
@@ -171,11 +172,15 @@ impl PhotonMaps {
         self.trees.global.tree.splits(SPLIT_DEPTH + 1)
     }
 
-    /// The photons that pass where they are seen from an eye over `to_eye`, the events from the eye on to the diffuse surface
-    /// on which they landed. It is good for these maps only.
-    pub fn filter(&self, matcher: &PathMatcher, to_eye: Path) -> PhotonFilter {
-        let passes = |&path: &Path| matcher.passes(path, Some(Scattering::Diffuse), to_eye);
-        PhotonFilter { passes: self.trees.paths.iter().map(passes).collect() }
+    /// The photons whose path passes. It is good for these maps only.
+    pub fn filter(&self, passes: impl Fn(Path) -> bool) -> PhotonFilter {
+        PhotonFilter { passes: self.trees.paths.iter().map(|&path| passes(path)).collect() }
+    }
+
+    /// What the flux of a photon is to be multiplied by while some are still to come: those that are there stand for all.
+    pub fn scale(&self, photon: &Photon) -> f32 {
+        let is_caustic = self.trees.has_caustic_map && photon.path.is_caustic();
+        if is_caustic { self.trees.caustic.scale } else { self.trees.global.scale }
     }
 
     /// Irradiance at a surface, on the side that was met.

@@ -92,6 +92,11 @@ impl Bsdf {
         self.mirror != Rgb::ZERO || self.reflected > 0.0 || self.refracted != Rgb::ZERO || self.straight != Rgb::ZERO
     }
 
+    /// Whether there is any lobe but the diffuse one.
+    pub fn is_specular(&self) -> bool {
+        self.is_glossy() || self.is_sharp()
+    }
+
     /// Whether there is a glossy lobe.
     pub fn is_glossy(&self) -> bool {
         self.glossy != Rgb::ZERO

@@ -108,6 +108,7 @@ mod tests {
             name: "squares".to_owned(),
             source: Source::Builtin("squares"),
             positions,
+            normals: Vec::new(),
             polygons: vec![Polygon::new(&[0, 1, 2, 3], 0, 0, 0), Polygon::new(&[4, 5, 6, 7], 0, 0, 0)],
             materials: Vec::new(),
             objects: Vec::new(),
