@@ -147,10 +147,15 @@ fn another_scene_starts_both_anew_and_each_runs_on_if_it_ran() {
     assert_eq!((steps(&after), batches(&after)), (0, 0));
     assert!(after.gathered.is_none() && after.image.is_none());
     assert_eq!((Counts::of(&counts.radiosity_starts), Counts::of(&counts.photon_starts)), (2, 2));
+
+    let (worker, _) = Fakes::default().photons(|_, cancel| fake::step_of(Duration::from_millis(20), cancel)).spawn();
+    load(&worker, "furnace");
+    look(&worker, Subject::Photons);
     worker.send(Command::Run);
-    worker.send(Command::Load("furnace".to_owned()));
-    wait_for(&worker, "complete", |now| crate::name(now) == "furnace" && batches(now) == BATCHES);
-    assert_eq!(steps(&worker.latest()), 0);
+    wait_for(&worker, "running", |now| batches(now) > 0);
+    worker.send(Command::Load("empty-box".to_owned()));
+    let end = wait_for(&worker, "complete", |now| crate::name(now) == "empty-box" && batches(now) == BATCHES);
+    assert_eq!(steps(&end), 0);
 }
 
 #[test]
