@@ -10,12 +10,15 @@ struct Display {
     tone: u32,
     // Whether the target wants values that are already encoded.
     encode: u32,
+    // How many texels of `radiance` lie along the width and height of the target: less than there are where its last cells
+    // reach past the edge.
+    span: vec2<f32>,
 }
 
 @group(0) @binding(0) var<uniform> display: Display;
 // Premultiplied with coverage.
 @group(0) @binding(1) var radiance: texture_2d<f32>;
-// Coverage by outlines of elements and by the outline of one patch.
+// Coverage by outlines of elements and by the outline of one patch; a single texel where there are none.
 @group(0) @binding(2) var overlay: texture_2d<f32>;
 
 // Colour of a screen before encoding.
@@ -39,10 +42,9 @@ fn vertex(@builtin(vertex_index) index: u32) -> Corner {
 
 @fragment
 fn fragment(corner: Corner) -> @location(0) vec4<f32> {
-    let size = vec2<i32>(textureDimensions(radiance));
-    let pixel = clamp(vec2<i32>(corner.uv * vec2<f32>(size)), vec2(0), size - 1);
-    let stored = textureLoad(radiance, pixel, 0);
-    let lines = textureLoad(overlay, pixel, 0).rg;
+    let stored = textureLoad(radiance, texel(corner.uv * display.span, textureDimensions(radiance)), 0);
+    let overlay_size = textureDimensions(overlay);
+    let lines = textureLoad(overlay, texel(corner.uv * vec2<f32>(overlay_size), overlay_size), 0).rg;
 
     var shown = BACKGROUND;
     if stored.a > 0.0 {
@@ -52,6 +54,11 @@ fn fragment(corner: Corner) -> @location(0) vec4<f32> {
     shown = mix(shown, vec3(select(0.0, 1.0, is_dark)), select(DARKEN, LIGHTEN, is_dark) * lines.r);
     shown = mix(shown, display.outline, lines.g);
     return vec4(select(shown, encoded(shown), display.encode != 0u), 1.0);
+}
+
+// The texel at a place in texels, or the nearest that there is.
+fn texel(place: vec2<f32>, size: vec2<u32>) -> vec2<u32> {
+    return min(vec2<u32>(place), size - 1u);
 }
 
 fn toned(exposed: vec3<f32>) -> vec3<f32> {

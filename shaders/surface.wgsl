@@ -17,13 +17,6 @@ struct Corner {
     @location(1) uv: vec2<f32>,
 }
 
-struct Drawn {
-    // Premultiplied with coverage.
-    @location(0) radiance: vec4<f32>,
-    // Coverage by outlines of elements and by the outline of one patch.
-    @location(1) overlay: vec2<f32>,
-}
-
 @vertex
 fn vertex(@builtin(vertex_index) index: u32) -> Corner {
     let element = index / 4u;

@@ -1,7 +1,9 @@
 //! Every shader parses, is valid, and agrees with the Rust structs that are sent to it. No graphics adapter is needed.
 
 use lightwell::viewport::SHADERS;
-use lightwell::viewport::gpu_types::{DisplayUniform, FrameUniform, OutlineUniform};
+use lightwell::viewport::gpu_types::{
+    DisplayUniform, FrameUniform, LineRecord, OutlineUniform, PhotonRecord, PointsUniform,
+};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use std::mem::{offset_of, size_of};
 
@@ -58,7 +60,13 @@ fn every_shader_file_is_a_program_or_the_shared_part() {
 fn structs_have_the_layout_of_their_shaders() {
     let frame = mirror!(FrameUniform, clip_from_unit, size, scale, line_width);
     assert_eq!(layout(&parse("surface"), "Frame"), frame);
-    assert_eq!(layout(&parse("outline"), "Frame"), frame);
+    for name in ["outline", "photons", "lines"] {
+        assert_eq!(layout(&parse(name), "Frame"), frame);
+    }
     assert_eq!(layout(&parse("outline"), "Outline"), mirror!(OutlineUniform, corners, count, width));
-    assert_eq!(layout(&parse("present"), "Display"), mirror!(DisplayUniform, outline, exposure, tone, encode));
+    assert_eq!(layout(&parse("present"), "Display"), mirror!(DisplayUniform, outline, exposure, tone, encode, span));
+    let photon = mirror!(PhotonRecord, x, y, z, colour, normal, direction);
+    assert_eq!(layout(&parse("photons"), "Photon"), photon);
+    assert_eq!(layout(&parse("photons"), "Points"), mirror!(PointsUniform, eye, size, tick));
+    assert_eq!(layout(&parse("lines"), "Line"), mirror!(LineRecord, start, width, end, colour));
 }

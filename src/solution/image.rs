@@ -88,9 +88,11 @@ pub struct CameraImage {
     pub camera: Camera,
     /// Width and height of the picture that was asked for, pixels.
     pub size: [u32; 2],
-    /// Width and height of the grid of `radiance`: `size`, or less while it is coarse.
+    /// Width and height of the grid of `radiance`: `size`, or less while it is coarse. Its cells are squares of 2, 4, 8 …
+    /// pixels then, and the last ones may reach past the edge.
     pub resolution: [u32; 2],
-    /// L, W/(m²·sr), row by row from the top left; for [`CameraView::PhotonIrradiance`] E/π.
+    /// L, W/(m²·sr), row by row from the top left, premultiplied with `coverage`: background counts as 0. For
+    /// [`CameraView::PhotonIrradiance`] E/π.
     pub radiance: Vec<Rgb>,
     /// Share of each cell that shows a surface, in [0, 1]; the rest is background.
     pub coverage: Vec<f32>,
@@ -100,4 +102,12 @@ pub struct CameraImage {
     /// Time spent on the picture, filled in by whoever runs it.
     pub elapsed: Duration,
     pub is_complete: bool,
+}
+
+impl CameraImage {
+    /// Pixels along the edge of a cell.
+    pub fn cell(&self) -> u32 {
+        let is_cell = |cell: &u32| [0, 1].iter().all(|&axis| self.size[axis].div_ceil(*cell) <= self.resolution[axis]);
+        (0..31).map(|power| 1 << power).find(is_cell).unwrap_or(1)
+    }
 }

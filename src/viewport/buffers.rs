@@ -34,12 +34,13 @@ pub struct WorldBuffers {
     pub is_smooth: bool,
     /// Uploaded to stored values.
     scale: f32,
-    frame: wgpu::Buffer,
+    /// A `FrameUniform`.
+    pub frame: wgpu::Buffer,
     outline: wgpu::Buffer,
     element_values: Values,
     vertex_values: Values,
     outline_group: wgpu::BindGroup,
-    units: Units,
+    pub units: Units,
     /// Values of vertices, kept to be filled again.
     smoothed: Vec<Rgb>,
 }
@@ -102,7 +103,11 @@ impl WorldBuffers {
             Quantity::FluxDensity => 1.0 / PI,
             Quantity::Colour => 1.0,
         };
-        self.stored_per_unit = range_scale(&shading.values, units_per_value);
+        self.stored_per_unit = match shading.quantity {
+            Quantity::FluxDensity => range_scale(&shading.values, units_per_value),
+            // Colours are in range, and others than those of elements may be drawn.
+            Quantity::Colour => 1.0,
+        };
         self.scale = self.stored_per_unit * units_per_value;
     }
 
@@ -135,7 +140,8 @@ impl WorldBuffers {
 
 /// Coordinates in which the scene is at the origin and has radius 1. The change is made in double precision, so that
 /// single precision is enough for what is drawn, however large or far from the origin a scene is.
-struct Units {
+#[derive(Clone, Copy)]
+pub struct Units {
     center: DVec3,
     /// World units in one.
     radius: f64,
@@ -147,8 +153,13 @@ impl Units {
         Self { center: world.bounds.center().as_dvec3(), radius: if radius > 0.0 { radius } else { 1.0 } }
     }
 
-    fn unit_from_world(&self, position: Vec3) -> Vec3 {
+    pub fn unit_from_world(&self, position: Vec3) -> Vec3 {
         ((position.as_dvec3() - self.center) / self.radius).as_vec3()
+    }
+
+    /// Of the scene, m.
+    pub fn radius(&self) -> f32 {
+        self.radius as f32
     }
 
     fn world_from_unit(&self) -> DMat4 {
@@ -190,7 +201,7 @@ fn range_scale(values: &[Rgb], units_per_value: f32) -> f32 {
 }
 
 /// Never empty, because an empty buffer cannot be bound.
-fn buffer(gpu: &Gpu, size: u64, usage: BufferUsages) -> wgpu::Buffer {
+pub fn buffer(gpu: &Gpu, size: u64, usage: BufferUsages) -> wgpu::Buffer {
     gpu.device.create_buffer(&wgpu::BufferDescriptor {
         label: None,
         size: size.max(size_of::<[f32; 4]>() as u64),

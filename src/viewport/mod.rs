@@ -1,8 +1,9 @@
 //! Draws a world and the light in it, in a window or into a file, by one path.
 //!
-//! A [`View`] says which value each element has. Elements are drawn into a target of radiance in half floats, which a
-//! second pass exposes, bends by a tone curve and encodes for the screen; false colours pass as they are. Diagrams
-//! need no device. Only this module names wgpu: a window hands its device through [`Gpu::from_parts`].
+//! A [`View`] says which value each element has. Elements are drawn into a target of radiance in half floats, photons
+//! over them, and a second pass exposes the target, bends it by a tone curve and encodes it for the screen; false colours
+//! pass as they are. A picture from a camera is taken to the second pass without the first. Diagrams need no device. Only
+//! this module names wgpu: a window hands its device through [`Gpu::from_parts`].
 
 mod buffers;
 pub mod colour_map;
@@ -10,12 +11,14 @@ pub mod diagram;
 mod exposure;
 mod gpu;
 pub mod gpu_types;
+mod image;
 mod legend;
-mod photon_look;
+mod photons;
 mod picking;
 mod picture;
 mod pipelines;
 mod readback;
+mod records;
 mod shading;
 mod targets;
 mod view;
@@ -23,16 +26,19 @@ mod view;
 pub use exposure::{Exposure, ToneCurve, automatic_exposure};
 pub use gpu::{AdapterChoice, Gpu, GpuError, adapter_selector, choose_adapter, device_descriptor};
 pub use legend::Legend;
-pub use photon_look::{ColourClass, PhotonColour, PhotonLook};
+pub use photons::{ColourClass, PhotonColour, PhotonLook};
 pub use picking::pick_patch;
 pub use picture::{Picture, render_picture};
 pub use pipelines::SHADERS;
 pub use view::{Frame, Light, View};
 
+use crate::solution::PathFilter;
 use crate::world::World;
 use buffers::WorldBuffers;
 use glam::{DMat4, DVec2, DVec3};
 use gpu_types::DisplayUniform;
+use image::ImageTexture;
+use photons::PhotonLayer;
 use pipelines::{Pipelines, bind};
 use shading::{Quantity, Shading};
 use std::mem::size_of;
@@ -52,7 +58,12 @@ pub struct Viewport {
     pipelines: Pipelines,
     encodes: bool,
     world: Option<WorldBuffers>,
+    photons: Option<PhotonLayer>,
     light: Option<Light>,
+    /// The picture from a camera that was uploaded last.
+    image: Option<ImageTexture>,
+    /// Whether `image` is what is presented, and not the targets.
+    shows_image: bool,
     /// What of the light is uploaded; `None` when world or light are newer.
     uploaded: Option<Contents>,
     targets: Option<Targets>,
@@ -73,6 +84,8 @@ struct Drawn {
     wireframe: bool,
     /// A patch.
     outlined: Option<u32>,
+    /// Where single photons are drawn.
+    photons: Option<(PhotonLook, PathFilter)>,
 }
 
 /// What the values of elements depend on, beside world and light.
@@ -97,7 +110,10 @@ impl Viewport {
             pipelines: Pipelines::new(&gpu.device, output_format),
             encodes: !output_format.is_srgb(),
             world: None,
+            photons: None,
             light: None,
+            image: None,
+            shows_image: false,
             uploaded: None,
             targets: None,
             drawn: None,
@@ -110,7 +126,9 @@ impl Viewport {
 
     /// Uploads the mesh of a world. It is dark until [`Viewport::set_light`].
     pub fn set_world(&mut self, world: &Arc<World>) {
-        self.world = Some(WorldBuffers::new(&self.gpu, &self.pipelines, world));
+        let world = WorldBuffers::new(&self.gpu, &self.pipelines, world);
+        self.photons = Some(PhotonLayer::new(&self.gpu, &self.pipelines, &world));
+        self.world = Some(world);
         self.light = None;
         self.uploaded = None;
         self.drawn = None;
@@ -119,6 +137,9 @@ impl Viewport {
     /// Takes over the light of the world that was set last. What a picture needs of it is uploaded when that is drawn.
     pub fn set_light(&mut self, light: &Light) {
         self.light = Some(light.clone());
+        if let Some(photons) = &mut self.photons {
+            photons.set_light();
+        }
         self.uploaded = None;
         self.drawn = None;
     }
@@ -131,7 +152,8 @@ impl Viewport {
 
     /// Shows the picture that was drawn last in the viewport rectangle of `pass`.
     pub fn present(&self, pass: &mut wgpu::RenderPass<'_>) {
-        if let Some(group) = &self.present_group {
+        let image = self.image.as_ref().filter(|_| self.shows_image).map(|image| &image.group);
+        if let Some(group) = image.or(self.present_group.as_ref()) {
             self.present_with(pass, group);
         }
     }
@@ -146,6 +168,10 @@ impl Viewport {
         if self.world.is_none() || frame.size.contains(&0) {
             return;
         }
+        self.shows_image = self.upload_image(frame);
+        if let Some(image) = self.image.as_ref().filter(|_| self.shows_image) {
+            return self.set_display(frame, image.span());
+        }
         let [width, height] = frame.size.map(f64::from);
         let moved = DVec3::new(2.0 * shift.x / width, -2.0 * shift.y / height, 0.0);
         let wanted = Drawn {
@@ -154,11 +180,13 @@ impl Viewport {
             contents: Contents { view: frame.view, bounce: frame.bounce, ambient: frame.ambient },
             wireframe: frame.wireframe,
             outlined: self.light.as_ref().and_then(|light| frame.outlined(light)),
+            photons: frame.view.shows_photons().then_some((frame.photons, frame.filter)),
         };
         self.upload_values(frame, wanted.contents);
-        self.set_display(frame);
+        self.set_display(frame, frame.size.map(|pixels| pixels as f32));
         if self.drawn != Some(wanted) {
             self.resize(frame.size);
+            self.upload_photons(frame);
             self.record(encoder, &wanted);
             self.drawn = Some(wanted);
             self.draws += 1;
@@ -175,19 +203,50 @@ impl Viewport {
         }
     }
 
-    fn set_display(&mut self, frame: &Frame) {
-        let Some(world) = &self.world else { return };
+    /// Uploads the picture from a camera that `frame` shows, unless that was uploaded last; false if it shows none.
+    fn upload_image(&mut self, frame: &Frame) -> bool {
+        let View::Camera(view) = frame.view else { return false };
+        let Some(image) = self.light.as_ref().and_then(|light| light.image_of(view)) else { return false };
+        let is_uploaded = self.image.as_ref().is_some_and(|uploaded| Arc::ptr_eq(&uploaded.image, image));
+        if !is_uploaded {
+            let is_replaced = self.image.as_mut().is_some_and(|uploaded| uploaded.replace(&self.gpu, image));
+            if !is_replaced {
+                self.image = Some(ImageTexture::new(&self.gpu, &self.pipelines, &self.display, image));
+            }
+            self.draws += 1;
+        }
+        true
+    }
+
+    /// Uploads what `frame` shows of photons and has not been uploaded.
+    fn upload_photons(&mut self, frame: &Frame) {
+        let (Some(photons), Some(light)) = (&mut self.photons, &self.light) else { return };
+        if frame.view.shows_photons() {
+            photons.upload(&self.gpu, light, frame);
+            photons.set_frame(&self.gpu, frame);
+        }
+    }
+
+    /// What is stored in the picture that is presented: of what, and how much for a unit of it.
+    fn stored(&self) -> (Quantity, f32) {
+        let surfaces = self.world.as_ref().filter(|_| !self.shows_image);
+        surfaces.map_or((Quantity::FluxDensity, 1.0), |world| (world.quantity, world.stored_per_unit))
+    }
+
+    /// Says how the stored picture, of which this many texels lie along width and height, is shown.
+    fn set_display(&mut self, frame: &Frame, span: [f32; 2]) {
         let is_picked = self.light.as_ref().is_some_and(|light| light.picked.is_some());
-        let (shown_per_unit, tone) = match world.quantity {
+        let (quantity, stored_per_unit) = self.stored();
+        let (shown_per_unit, tone) = match quantity {
             Quantity::FluxDensity => (frame.exposure_ev.exp2(), frame.tone),
             Quantity::Colour => (1.0, ToneCurve::Linear),
         };
         let display = DisplayUniform {
             outline: if is_picked { PICKED } else { SHOOTER },
-            exposure: shown_per_unit / world.stored_per_unit,
+            exposure: shown_per_unit / stored_per_unit,
             tone: tone as u32,
             encode: self.encodes.into(),
-            padding: [0; 2],
+            span,
         };
         if display != self.displayed {
             self.gpu.queue.write_buffer(&self.display, 0, bytemuck::bytes_of(&display));
@@ -235,6 +294,9 @@ impl Viewport {
             pass.set_pipeline(&self.pipelines.outline);
             pass.set_bind_group(0, world.outline_group(), &[]);
             pass.draw(0..6, 0..edges);
+        }
+        if let (Some((look, _)), Some(photons)) = (&wanted.photons, &self.photons) {
+            photons.record(&mut pass, &self.pipelines, wanted.contents.view, look);
         }
     }
 }

@@ -3,9 +3,9 @@
 use super::colour_map::encoded;
 use super::readback::{from_half, read_texture};
 use super::targets::{self, SAMPLES};
-use super::{Frame, Gpu, GpuError, Light, Viewport};
+use super::{Frame, Gpu, GpuError, Light, Viewport, image};
 use crate::world::World;
-use bytemuck::{cast_slice, pod_collect_to_vec};
+use bytemuck::pod_collect_to_vec;
 use glam::DVec2;
 use std::sync::Arc;
 use wgpu::TextureUsages;
@@ -50,6 +50,9 @@ pub fn render_picture(
     let mut viewport = Viewport::new(gpu, FINISHED);
     viewport.set_world(world);
     viewport.set_light(light);
+    if let Some(image) = viewport.take_image(frame) {
+        return viewport.finish(&image);
+    }
     let draws = samples.div_ceil(SAMPLES).max(1);
     let mut sum = Sum::new(frame.size);
     for draw in 0..draws {
@@ -60,8 +63,6 @@ pub fn render_picture(
 
 /// Of pictures for files.
 const FINISHED: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
-/// Of means over several draws, which are more precise than one.
-const MEAN: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
 
 /// Radiance as stored and coverage by lines, four floats a pixel each.
 struct Sum {
@@ -103,9 +104,33 @@ impl Viewport {
         Ok(())
     }
 
+    /// The picture from a camera that `frame` shows, if it shows one, as what is presented from now on. Pixels of a coarse
+    /// picture take over their cell's value.
+    fn take_image(&mut self, frame: &Frame) -> Option<Sum> {
+        self.shows_image = self.upload_image(frame);
+        let uploaded = self.image.as_ref().filter(|_| self.shows_image)?;
+        let (cells, resolution, span) = (image::texels(&uploaded.image), uploaded.image.resolution, uploaded.span());
+        let mut sum = Sum::new(frame.size);
+        let [width, height] = frame.size;
+        let pixels = (0..height).flat_map(|y| (0..width).map(move |x| [x, y]));
+        for (texel, pixel) in sum.radiance.chunks_exact_mut(4).zip(pixels) {
+            let [x, y] = [0, 1].map(|axis| {
+                let share = (pixel[axis] as f32 + 0.5) / frame.size[axis] as f32;
+                ((share * span[axis]) as u32).min(resolution[axis] - 1)
+            });
+            texel.copy_from_slice(&cells[(y * resolution[0] + x) as usize]);
+        }
+        self.set_display(frame, frame.size.map(|pixels| pixels as f32));
+        Some(sum)
+    }
+
     /// Presents a mean of draws and reads the result.
     fn finish(&self, mean: &Sum) -> Result<Picture, GpuError> {
-        let [radiance, overlay] = [&mean.radiance, &mean.overlay].map(|values| self.upload(mean.size, values));
+        let [radiance, overlay] = [&mean.radiance, &mean.overlay].map(|values| {
+            let texture = image::texture(&self.gpu, mean.size);
+            image::write(&self.gpu, &texture, values);
+            texture
+        });
         let group = self.present_group(&radiance, &overlay);
         let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::COPY_SRC;
         let finished = targets::texture(&self.gpu.device, mean.size, FINISHED, 1, usage);
@@ -125,19 +150,10 @@ impl Viewport {
         drop(pass);
         self.gpu.queue.submit([encoder.finish()]);
         let srgb = pod_collect_to_vec(&read_texture(&self.gpu, &finished)?);
-        let stored = self.world.as_ref().map_or(1.0, |world| world.stored_per_unit);
+        let (_, stored) = self.stored();
         let linear =
             mean.radiance.chunks_exact(4).map(|v| [v[0] / stored, v[1] / stored, v[2] / stored, v[3]]).collect();
         Ok(Picture { size: mean.size, linear, srgb })
-    }
-
-    /// A texture of four floats a pixel.
-    fn upload(&self, size: [u32; 2], values: &[f32]) -> wgpu::Texture {
-        let usage = TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST;
-        let texture = targets::texture(&self.gpu.device, size, MEAN, 1, usage);
-        let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(16 * size[0]), rows_per_image: None };
-        self.gpu.queue.write_texture(texture.as_image_copy(), cast_slice(values), layout, texture.size());
-        texture
     }
 }
 

@@ -1,14 +1,16 @@
-//! The three programs that draw a picture, compiled once.
+//! The programs that draw a picture, compiled once.
 
-use super::gpu_types::{DisplayUniform, FrameUniform, OutlineUniform};
+use super::gpu_types::{DisplayUniform, FrameUniform, OutlineUniform, PointsUniform};
 use super::targets;
 use std::mem::size_of;
 use wgpu::{BindingType, BufferBindingType, ShaderStages};
 
 /// Every shader with the part that all share, as it is compiled: name and source.
-pub const SHADERS: [(&str, &str); 3] = [
+pub const SHADERS: [(&str, &str); 5] = [
     ("surface", concat!(include_str!("../../shaders/common.wgsl"), include_str!("../../shaders/surface.wgsl"))),
     ("outline", concat!(include_str!("../../shaders/common.wgsl"), include_str!("../../shaders/outline.wgsl"))),
+    ("photons", concat!(include_str!("../../shaders/common.wgsl"), include_str!("../../shaders/photons.wgsl"))),
+    ("lines", concat!(include_str!("../../shaders/common.wgsl"), include_str!("../../shaders/lines.wgsl"))),
     ("present", concat!(include_str!("../../shaders/common.wgsl"), include_str!("../../shaders/present.wgsl"))),
 ];
 
@@ -21,6 +23,17 @@ pub struct Pipelines {
     /// `Frame`, `Outline`.
     pub outline_layout: wgpu::BindGroupLayout,
     pub outline: wgpu::RenderPipeline,
+    /// `Frame`, `Points`, photons.
+    pub photon_layout: wgpu::BindGroupLayout,
+    pub photons: wgpu::RenderPipeline,
+    pub ticks: wgpu::RenderPipeline,
+    /// Photons before everything else.
+    pub marks: wgpu::RenderPipeline,
+    /// `Frame`, lines.
+    pub line_layout: wgpu::BindGroupLayout,
+    pub lines: wgpu::RenderPipeline,
+    /// Lines before everything else.
+    pub ways: wgpu::RenderPipeline,
     /// `Display`, radiance, overlay.
     pub present_layout: wgpu::BindGroupLayout,
     pub present: wgpu::RenderPipeline,
@@ -28,28 +41,47 @@ pub struct Pipelines {
 
 impl Pipelines {
     pub fn new(device: &wgpu::Device, output_format: wgpu::TextureFormat) -> Self {
-        let [surface, outline, present] = SHADERS.map(|(name, source)| Program::new(device, name, source));
+        let [surface, outline, photons, lines, present] =
+            SHADERS.map(|(name, source)| Program::new(device, name, source));
         let surface_layout = surface.layout(device, &[uniform::<FrameUniform>(), storage(), storage(), storage()]);
         let outline_layout = outline.layout(device, &[uniform::<FrameUniform>(), uniform::<OutlineUniform>()]);
+        let photon_layout = photons.layout(device, &[uniform::<FrameUniform>(), uniform::<PointsUniform>(), storage()]);
+        let line_layout = lines.layout(device, &[uniform::<FrameUniform>(), storage()]);
         let present_layout = present.layout(device, &[uniform::<DisplayUniform>(), texture(), texture()]);
 
-        let surface_targets = [targets::RADIANCE, targets::OVERLAY].map(|format| Some(format.into()));
+        let picture_targets = [targets::RADIANCE, targets::OVERLAY].map(|format| Some(format.into()));
         let outline_targets = [
             Some(wgpu::ColorTargetState { write_mask: wgpu::ColorWrites::empty(), ..targets::RADIANCE.into() }),
             Some(wgpu::ColorTargetState { write_mask: wgpu::ColorWrites::GREEN, ..targets::OVERLAY.into() }),
         ];
-        let constant =
-            Drawing { fragment: "fragment_constant", targets: &surface_targets, depth: Some(true), cull: true };
+        let plain = Drawing {
+            vertex: "vertex",
+            fragment: "fragment",
+            targets: &picture_targets,
+            depth: Depth::Test,
+            cull: false,
+        };
+        let constant = Drawing { fragment: "fragment_constant", depth: Depth::Write, cull: true, ..plain };
         let smooth = Drawing { fragment: "fragment_smooth", ..constant };
-        let lines = Drawing { fragment: "fragment", targets: &outline_targets, depth: Some(false), cull: false };
-        let screen = Drawing { targets: &[Some(output_format.into())], depth: None, ..lines };
+        let outlines = Drawing { targets: &outline_targets, ..plain };
+        let photon = Drawing { depth: Depth::Write, ..plain };
+        let tick = Drawing { vertex: "vertex_tick", ..plain };
+        let in_front = Drawing { depth: Depth::Ignore, ..plain };
+        let screen = Drawing { targets: &[Some(output_format.into())], depth: Depth::None, ..plain };
         Self {
             surface_constant: surface.pipeline(device, &surface_layout, &constant),
             surface_smooth: surface.pipeline(device, &surface_layout, &smooth),
-            outline: outline.pipeline(device, &outline_layout, &lines),
+            outline: outline.pipeline(device, &outline_layout, &outlines),
+            photons: photons.pipeline(device, &photon_layout, &photon),
+            ticks: photons.pipeline(device, &photon_layout, &tick),
+            marks: photons.pipeline(device, &photon_layout, &in_front),
+            lines: lines.pipeline(device, &line_layout, &plain),
+            ways: lines.pipeline(device, &line_layout, &in_front),
             present: present.pipeline(device, &present_layout, &screen),
             surface_layout,
             outline_layout,
+            photon_layout,
+            line_layout,
             present_layout,
         }
     }
@@ -70,11 +102,24 @@ pub fn bind(
 /// How a program meets its targets.
 #[derive(Clone, Copy)]
 struct Drawing<'a> {
+    vertex: &'static str,
     fragment: &'static str,
     targets: &'a [Option<wgpu::ColorTargetState>],
-    /// Whether it writes depth; `None` where there is no depth and a single sample a pixel.
-    depth: Option<bool>,
+    depth: Depth,
     cull: bool,
+}
+
+/// What is done about depth.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Depth {
+    /// What is farther is hidden, now and later.
+    Write,
+    /// What is farther is hidden.
+    Test,
+    /// Nothing hides it.
+    Ignore,
+    /// There is no depth, and a single sample a pixel.
+    None,
 }
 
 struct Program {
@@ -111,10 +156,15 @@ impl Program {
             bind_group_layouts: &[Some(bindings)],
             immediate_size: 0,
         });
-        let depth_stencil = drawing.depth.map(|write| wgpu::DepthStencilState {
+        let nearer = if drawing.depth == Depth::Ignore {
+            wgpu::CompareFunction::Always
+        } else {
+            wgpu::CompareFunction::GreaterEqual
+        };
+        let depth_stencil = (drawing.depth != Depth::None).then(|| wgpu::DepthStencilState {
             format: targets::DEPTH,
-            depth_write_enabled: Some(write),
-            depth_compare: Some(wgpu::CompareFunction::GreaterEqual),
+            depth_write_enabled: Some(drawing.depth == Depth::Write),
+            depth_compare: Some(nearer),
             stencil: wgpu::StencilState::default(),
             bias: wgpu::DepthBiasState::default(),
         });
@@ -124,7 +174,7 @@ impl Program {
             layout: Some(&layout),
             vertex: wgpu::VertexState {
                 module: &self.module,
-                entry_point: Some("vertex"),
+                entry_point: Some(drawing.vertex),
                 compilation_options: wgpu::PipelineCompilationOptions::default(),
                 buffers: &[],
             },

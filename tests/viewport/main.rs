@@ -2,7 +2,9 @@
 
 mod device;
 mod exposure;
+mod images;
 mod outlines;
+mod photons;
 mod picking;
 mod radiance;
 mod views;

@@ -1,9 +1,9 @@
 //! How single photons are drawn.
 
-use super::colour_map::colour;
 use crate::choice::Choice;
 use crate::math::rgb::Rgb;
 use crate::solution::Photon;
+use crate::viewport::colour_map::colour;
 
 /// What a person can change of the views of photons.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,7 +13,7 @@ pub struct PhotonLook {
     pub size: f32,
     /// Whether a tick at each photon points to where it came from.
     pub ticks: bool,
-    /// How deep into the tree [`super::View::KdTree`] shows its planes; the root is at 0.
+    /// How deep into the tree [`crate::viewport::View::KdTree`] shows its planes; the root is at 0.
     pub depth: u8,
 }
 
@@ -78,7 +78,8 @@ impl PhotonColour {
 /// The darkest photon has this share of the brightness of the brightest one, so that it can be seen.
 const DARKEST: f32 = 0.2;
 
-fn of_flux(flux: Rgb, brightest: f32) -> Rgb {
+/// The colour of flux among others whose largest channel is `brightest`, W.
+pub(super) fn of_flux(flux: Rgb, brightest: f32) -> Rgb {
     let largest = flux.max_element();
     if largest <= 0.0 {
         return Rgb::ZERO;
