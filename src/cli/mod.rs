@@ -1,21 +1,28 @@
 //! The command line: the same code as the window, without one. One file a command.
 
+mod camera_options;
 mod check;
+mod facts;
 mod form_factor;
+mod image_options;
 mod inspect;
+mod photon_options;
 pub mod picture;
 mod probe;
 mod render;
 mod run_options;
 mod scenes;
+mod series;
 mod solve;
+mod tracing;
 mod values;
 
 use crate::scene::{Finding, SceneError, Severity};
 use crate::viewport::{AdapterChoice, GpuError};
 use crate::worker::Refused;
 use crate::world::WorldError;
-use clap::{Args, Parser, Subcommand};
+use clap::error::ErrorKind;
+use clap::{Args, CommandFactory, Parser, Subcommand};
 use std::path::PathBuf;
 
 /// Watch light spread through a scene, and read off what accuracy costs.
@@ -43,6 +50,8 @@ pub struct WindowOptions {
 pub enum Command {
     /// Solve a scene and write a picture of it
     Render(render::Options),
+    /// Write one scene as a series of pictures: ray-traced, its photons, light read off them, and gathered from them
+    Series(series::Options),
     /// Solve a scene and print where its light went
     Solve(solve::Options),
     /// Solve a scene and print the irradiance at points
@@ -64,6 +73,7 @@ impl Command {
     pub fn run(&self) -> Result<(), CliError> {
         match self {
             Self::Render(options) => render::run(options),
+            Self::Series(options) => series::run(options),
             Self::Solve(options) => solve::run(options),
             Self::Probe(options) => probe::run(options),
             Self::FormFactor(options) => form_factor::run(options),
@@ -105,8 +115,17 @@ pub enum CliError {
     NoSuchBounce { kept: usize },
     #[error("there is nothing to draw yet: {0}")]
     Missing(&'static str),
+    #[error("no surface is at {},{},{}, seen from where its normal points, and photons land nowhere else", .point[0], .point[1], .point[2])]
+    InTheAir { point: [f32; 3] },
+    #[error("cannot make the folder {path}")]
+    Folder { path: PathBuf, source: std::io::Error },
     #[error("cannot print")]
     Print(#[from] std::io::Error),
+}
+
+/// Ends the program, as any other wrong command line does, because options do not fit together.
+fn refuse(reason: &str) -> ! {
+    Cli::command().error(ErrorKind::ArgumentConflict, reason).exit()
 }
 
 /// Prints what may make a result differ from what the scene's author meant, on standard error.

@@ -1,11 +1,8 @@
 //! Pictures as files, with what is needed to make them again.
 
 use super::CliError;
-use crate::choice::Choice;
-use crate::methods::Settings;
-use crate::viewport::diagram::Diagram;
-use crate::viewport::{Frame, Light, Picture, View};
-use crate::world::World;
+pub use super::facts::{diagram_facts, facts};
+use crate::viewport::Picture;
 use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -29,61 +26,6 @@ impl Format {
             _ => None,
         }
     }
-}
-
-/// What a picture of a view says of itself: names and values.
-pub fn facts(world: &World, light: &Light, settings: &Settings, frame: &Frame) -> Vec<(String, String)> {
-    let viewpoint = frame.camera.viewpoint();
-    let mut facts = run_facts(world, light, settings, frame.view.name());
-    let mut add = |name: &str, value: String| facts.push((name.to_owned(), value));
-    add("Eye", viewpoint.eye.to_string());
-    add("Target", viewpoint.target.to_string());
-    add("Up", viewpoint.up.to_string());
-    add("Vertical field of view", format!("{} deg", viewpoint.vertical_fov));
-    match (frame.view, &light.picked) {
-        (View::FormFactors, Some(picked)) => add("Picked patch", picked.patch.to_string()),
-        (view, _) if view.is_false_colour() => {}
-        _ => add("Exposure", format!("{} EV, {}", frame.exposure_ev, frame.tone.name())),
-    }
-    if frame.view == View::Bounces {
-        add("Bounces", frame.bounce.to_string());
-    }
-    if let Some(solution) = light.solution.as_ref().filter(|_| frame.ambient)
-        && matches!(frame.view, View::Patches | View::Smooth)
-    {
-        add("Ambient", solution.ambient.to_string());
-    }
-    facts
-}
-
-/// What a diagram says of itself: names and values.
-pub fn diagram_facts(world: &World, light: &Light, settings: &Settings, diagram: Diagram) -> Vec<(String, String)> {
-    let mut facts = run_facts(world, light, settings, diagram.name());
-    if let (Diagram::ItemBuffer, Some(picked)) = (diagram, &light.picked) {
-        facts.push(("Picked patch".to_owned(), picked.patch.to_string()));
-        facts.push(("Hemicube".to_owned(), settings.hemicube_resolution.to_string()));
-    }
-    facts
-}
-
-fn run_facts(world: &World, light: &Light, settings: &Settings, view: &str) -> Vec<(String, String)> {
-    let facts = [
-        ("Software", concat!("Lightwell ", env!("CARGO_PKG_VERSION")).to_owned()),
-        ("Scene", world.scene.name.clone()),
-        ("View", view.to_owned()),
-        ("Method", "radiosity".to_owned()),
-        ("Solver", settings.solver.name().to_owned()),
-        ("Form factors", settings.form_factor.name().to_owned()),
-        ("Element size", format!("{} m", world.element_size)),
-        ("Shadow rays", settings.shadow_rays.to_string()),
-        ("Stop limit", settings.unshot_limit.to_string()),
-        ("Seed", settings.seed.to_string()),
-    ];
-    let spent = light.solution.iter().flat_map(|solution| {
-        let seconds = format!("{:.3}", solution.elapsed.as_secs_f64());
-        [("Steps", solution.steps.to_string()), ("Seconds", seconds)]
-    });
-    facts.into_iter().chain(spent).map(|(name, value)| (name.to_owned(), value)).collect()
 }
 
 /// Writes a picture in the format of its ending. The file appears when it is whole: a failure leaves what was there.

@@ -1,12 +1,21 @@
 //! `lightwell probe`: the irradiance at points.
 
 use super::CliError;
+use super::photon_options::{LightMethod, PhotonOptions};
 use super::run_options::RunOptions;
+use super::solve::check_method;
+use super::tracing::Tracing;
+use crate::choice::{Choice, parse};
 use crate::math::rgb::Rgb;
+use crate::math::stats::Moments;
+use crate::methods::Settings;
+use crate::methods::photon_map::{Estimate, ProgressivePoints, Scratch, Which};
 use crate::methods::radiosity::irradiance_in_space;
+use crate::methods::transport::Surface;
 use crate::solution::SurfaceProbe;
+use crate::worker::TracedPhotons;
 use glam::Vec3;
-use serde_json::json;
+use serde_json::{Value, json};
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 
@@ -14,6 +23,11 @@ use std::path::{Path, PathBuf};
 pub struct Options {
     #[command(flatten)]
     run: RunOptions,
+    /// How light is computed: radiosity or photon-map
+    #[arg(long, value_name = "METHOD", default_value = LightMethod::default().name(), value_parser = parse::<LightMethod>)]
+    method: LightMethod,
+    #[command(flatten)]
+    photons: PhotonOptions,
     /// Lines of `x y z nx ny nz`; `-` for standard input
     #[arg(long, value_name = "FILE|-")]
     points: PathBuf,
@@ -25,41 +39,138 @@ pub struct Options {
 /// A point and a unit normal.
 type Sensor = (Vec3, Vec3);
 
-/// On a surface the solution is read off; in the air it is gathered from all patches, as a light meter would.
+/// What was found at a point: the irradiance, W/m², and how good it is.
+struct Measured {
+    sensor: Sensor,
+    irradiance: Rgb,
+    quality: Quality,
+}
+
+enum Quality {
+    /// Of radiosity, which does not tell.
+    Unknown,
+    /// Of an estimate from the photons within a radius, m.
+    Estimate { relative_error: f32, radius: f32, photons: u32 },
+    /// Of a mean over passes: its standard error, W/m², by channel.
+    Mean { standard_error: [f64; 3], passes: u64 },
+}
+
 pub fn run(options: &Options) -> Result<(), CliError> {
+    check_method(options.method, &options.run, &options.photons);
     let sensors = read(&options.points)?;
+    let measured = match options.method {
+        LightMethod::Radiosity => by_radiosity(options, &sensors)?,
+        LightMethod::PhotonMap => by_photons(options, &sensors)?,
+    };
+    print(&measured, options.json)
+}
+
+/// On a surface the solution is read off; in the air it is gathered from all patches, as a light meter would.
+fn by_radiosity(options: &Options, sensors: &[Sensor]) -> Result<Vec<Measured>, CliError> {
     let solved = options.run.solve()?;
     let probe = SurfaceProbe::new(&solved.world, &solved.solution);
-    let measured = sensors.iter().map(|&(point, normal)| {
+    let measure = |&(point, normal): &Sensor| {
         let on_surface = probe.irradiance(point.into(), normal.into());
         let irradiance = on_surface.unwrap_or_else(|| {
             irradiance_in_space(&solved.world, &solved.solution, point.into(), normal.into(), solved.settings.seed)
         });
-        (point, normal, irradiance)
-    });
-    print(measured, options.json)
+        Measured { sensor: (point, normal), irradiance, quality: Quality::Unknown }
+    };
+    Ok(sensors.iter().map(measure).collect())
 }
 
-fn print(measured: impl Iterator<Item = (Vec3, Vec3, Rgb)>, as_json: bool) -> Result<(), CliError> {
+/// Photons are on surfaces only, so points must be, too.
+fn by_photons(options: &Options, sensors: &[Sensor]) -> Result<Vec<Measured>, CliError> {
+    let settings = Settings { photons: options.photons.settings(), ..options.run.settings() };
+    let mut tracing = Tracing::new(options.run.open()?, settings, options.run.time());
+    let surface = |photons: &mut TracedPhotons, &(point, normal): &Sensor| {
+        photons.surface(point.into(), normal.into()).ok_or(CliError::InTheAir { point: point.to_array() })
+    };
+    let photons = tracing.photons()?.method();
+    let surfaces = sensors.iter().map(|sensor| surface(photons, sensor)).collect::<Result<Vec<Surface>, CliError>>()?;
+    if settings.photons.is_progressive {
+        let mut points = ProgressivePoints::new(surfaces);
+        tracing.trace(|photons| points.add(&photons.method().maps(), Which::All))?;
+        let means = sensors.iter().zip(points.irradiance());
+        return Ok(means.map(|(&sensor, channels)| mean_over_passes(sensor, channels)).collect());
+    }
+    tracing.trace(|_| ())?;
+    let maps = tracing.photons()?.method().maps();
+    let mut scratch = Scratch::default();
+    let measure = |(&sensor, surface): (&Sensor, &Surface)| {
+        let Estimate { irradiance, photons, radius, relative_error, .. } =
+            maps.irradiance(surface, Which::All, &mut scratch);
+        Measured { sensor, irradiance, quality: Quality::Estimate { relative_error, radius, photons } }
+    };
+    Ok(sensors.iter().zip(&surfaces).map(measure).collect())
+}
+
+fn mean_over_passes(sensor: Sensor, channels: &[Moments; 3]) -> Measured {
+    let [r, g, b] = channels.each_ref().map(|channel| channel.mean() as f32);
+    let standard_error = channels.each_ref().map(Moments::standard_error);
+    Measured {
+        sensor,
+        irradiance: Rgb::new(r, g, b),
+        quality: Quality::Mean { standard_error, passes: channels[0].count() },
+    }
+}
+
+fn print(measured: &[Measured], as_json: bool) -> Result<(), CliError> {
     let mut out = std::io::BufWriter::new(std::io::stdout().lock());
     if as_json {
-        let points: Vec<_> = measured
-            .map(|(point, normal, irradiance)| {
-                json!({
-                    "point": point.to_array(), "normal": normal.to_array(), "irradiance": irradiance.to_array(),
-                })
-            })
-            .collect();
+        let points: Vec<Value> = measured.iter().map(Measured::json).collect();
         writeln!(out, "{}", json!({ "points": points }))?;
     } else {
-        writeln!(out, "x,y,z,nx,ny,nz,r,g,b")?;
-        for (point, normal, irradiance) in measured {
-            let numbers = [point, normal, irradiance].map(|v| format!("{},{},{}", v.x, v.y, v.z));
-            writeln!(out, "{}", numbers.join(","))?;
+        let columns = measured.first().map_or("", |first| first.quality.columns());
+        writeln!(out, "x,y,z,nx,ny,nz,r,g,b{columns}")?;
+        for Measured { sensor: (point, normal), irradiance, quality } in measured {
+            let numbers = [*point, *normal, *irradiance].map(|v| format!("{},{},{}", v.x, v.y, v.z));
+            writeln!(out, "{}{}", numbers.join(","), quality.values())?;
         }
     }
     out.flush()?;
     Ok(())
+}
+
+impl Measured {
+    fn json(&self) -> Value {
+        let (point, normal) = self.sensor;
+        let mut object = json!({
+            "point": point.to_array(), "normal": normal.to_array(), "irradiance": self.irradiance.to_array(),
+        });
+        match self.quality {
+            Quality::Unknown => {}
+            Quality::Estimate { relative_error, radius, photons } => {
+                object["relative_error"] = json!(relative_error);
+                object["radius"] = json!(radius);
+                object["photons"] = json!(photons);
+            }
+            Quality::Mean { standard_error, passes } => {
+                object["standard_error"] = json!(standard_error);
+                object["passes"] = json!(passes);
+            }
+        }
+        object
+    }
+}
+
+impl Quality {
+    /// Names of further columns of the table.
+    fn columns(&self) -> &'static str {
+        match self {
+            Self::Unknown => "",
+            Self::Estimate { .. } => ",relative_error,radius,photons",
+            Self::Mean { .. } => ",r_error,g_error,b_error,passes",
+        }
+    }
+
+    fn values(&self) -> String {
+        match self {
+            Self::Unknown => String::new(),
+            Self::Estimate { relative_error, radius, photons } => format!(",{relative_error},{radius},{photons}"),
+            Self::Mean { standard_error: [r, g, b], passes } => format!(",{r},{g},{b},{passes}"),
+        }
+    }
 }
 
 fn read(path: &Path) -> Result<Vec<Sensor>, CliError> {

@@ -14,9 +14,9 @@ use clap::Args;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// The scene, how finely it is cut, and when to stop.
+/// The scene, and how finely it is cut.
 #[derive(Args, Debug)]
-pub struct RunOptions {
+pub struct SceneOptions {
     /// The path of an OBJ file, or the name of a built-in scene
     scene: String,
     /// Add a ceiling light where the scene has no emitter of its own
@@ -25,10 +25,37 @@ pub struct RunOptions {
     /// Longest edge of an element, in the scene's units [default: about 8000 elements in all]
     #[arg(long, value_name = "SIZE", value_parser = values::positive)]
     element: Option<f64>,
+    /// Every random number comes from this
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub seed: u64,
+}
+
+impl SceneOptions {
+    /// Opens the scene and prepares it, with patches of so many elements along each edge.
+    pub fn open(&self, elements_per_patch_edge: u32) -> Result<Arc<World>, CliError> {
+        let mut scene = Scene::open(&self.scene)?;
+        if self.ceiling_light && !scene.has_emitter() {
+            scene = with_ceiling_light(&scene);
+        }
+        let world = World::build(scene, &self.mesh(elements_per_patch_edge), &Cancel::default())?;
+        warn_of(&world.scene.findings);
+        Ok(Arc::new(world))
+    }
+
+    pub fn mesh(&self, elements_per_patch_edge: u32) -> MeshSettings {
+        MeshSettings { element_size: self.element.map(|size| size as f32), elements_per_patch_edge }
+    }
+}
+
+/// The scene, how its radiosity is computed, and when to stop.
+#[derive(Args, Debug)]
+pub struct RunOptions {
+    #[command(flatten)]
+    scene: SceneOptions,
     /// Stop after this many shots or sweeps
     #[arg(long, value_name = "N", group = "stop")]
     steps: Option<u64>,
-    /// Stop after this much solver time
+    /// Stop after this much solver time; a picture from a camera gets its first sample even if that takes longer
     #[arg(long, value_name = "SECONDS", group = "stop", value_parser = values::positive)]
     time: Option<f64>,
     /// Stop when at most this share of the emitted flux is unshot [default: 0.1]
@@ -47,10 +74,10 @@ pub struct RunOptions {
     #[arg(long, value_name = "N", default_value_t = MeshSettings::default().elements_per_patch_edge,
           value_parser = clap::value_parser!(u32).range(1..=i64::from(MeshSettings::MAX_ELEMENTS_PER_PATCH_EDGE)))]
     patch_edge: u32,
-    /// Rays that carry the emitted flux (form factors by rays)
-    #[arg(long, value_name = "N", default_value_t = Settings::default().light_rays,
-          value_parser = clap::value_parser!(u32).range(i64::from(Settings::MIN_LIGHT_RAYS)..=i64::from(Settings::MAX_LIGHT_RAYS)))]
-    light_rays: u32,
+    /// Rays that carry the emitted flux (form factors by rays) [default: 8000000]; for the views `ray-traced` and
+    /// `final-gather`, shadow rays to the emitters at each place that is seen [default: 4]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(Settings::MAX_LIGHT_RAYS)))]
+    pub light_rays: Option<u32>,
     /// Cells along the edge of a hemicube's top face
     #[arg(long, value_name = "N", default_value_t = Settings::default().hemicube_resolution, value_parser = values::hemicube_resolution)]
     hemicube: u32,
@@ -58,9 +85,6 @@ pub struct RunOptions {
     #[arg(long, value_name = "N", default_value_t = Settings::default().shadow_rays,
           value_parser = clap::value_parser!(u32).range(1..=i64::from(Settings::MAX_SHADOW_RAYS)))]
     shadow_rays: u32,
-    /// Every random number comes from this
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    seed: u64,
 }
 
 /// A scene with its light.
@@ -74,44 +98,53 @@ impl RunOptions {
     pub fn settings(&self) -> Settings {
         let limit = self.converge.map_or(Settings::default().unshot_limit, |percent| percent / 100.0);
         Settings {
-            mesh: MeshSettings {
-                element_size: self.element.map(|size| size as f32),
-                elements_per_patch_edge: self.patch_edge,
-            },
+            mesh: self.scene.mesh(self.patch_edge),
             // A run that ends by a count or by the clock does not end before.
             unshot_limit: if self.steps.is_some() || self.time.is_some() { 0.0 } else { limit },
             shadow_rays: self.shadow_rays,
             solver: self.solver,
             form_factor: self.form_factor,
             overshoot: self.overshoot,
-            light_rays: self.light_rays,
+            light_rays: self.light_rays.unwrap_or(Settings::default().light_rays),
             hemicube_resolution: self.hemicube,
-            seed: self.seed,
+            seed: self.scene.seed,
             ..Settings::default()
         }
     }
 
-    /// Opens the scene and prepares it.
-    pub fn open(&self) -> Result<Arc<World>, CliError> {
-        let mut scene = Scene::open(&self.scene)?;
-        if self.ceiling_light && !scene.has_emitter() {
-            scene = with_ceiling_light(&scene);
-        }
-        Ok(Arc::new(World::build(scene, &self.settings().mesh, &Cancel::default())?))
+    /// The solver time after which a run ends.
+    pub fn time(&self) -> Option<Duration> {
+        // More seconds than a duration holds are no limit.
+        self.time.map(|seconds| Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX))
     }
 
-    /// Opens the scene and runs the method until it should stop.
+    /// Why these options do not lead to radiosity, if they do not.
+    pub fn objection_by_radiosity(&self) -> Option<String> {
+        let few = self.light_rays.filter(|&rays| rays < Settings::MIN_LIGHT_RAYS);
+        few.map(|_| format!("radiosity takes --light-rays of {} or more", Settings::MIN_LIGHT_RAYS))
+    }
+
+    /// An option that says when radiosity stops and nothing else.
+    pub fn stop_of_radiosity(&self) -> Option<&'static str> {
+        let steps = self.steps.map(|_| "--steps");
+        steps.or(self.converge.map(|_| "--converge"))
+    }
+
+    /// Opens the scene and prepares it.
+    pub fn open(&self) -> Result<Arc<World>, CliError> {
+        self.scene.open(self.patch_edge)
+    }
+
+    /// Opens the scene and runs radiosity until it should stop.
     pub fn solve(&self) -> Result<Solved, CliError> {
         self.solve_in(self.open()?)
     }
 
-    /// Runs the method in the opened scene until it should stop.
+    /// Runs radiosity in the opened scene until it should stop.
     pub fn solve_in(&self, world: Arc<World>) -> Result<Solved, CliError> {
-        warn_of(&world.scene.findings);
         let settings = self.settings();
         let mut run = Run::start(world.clone(), &settings)?;
-        // More seconds than a duration holds are no limit.
-        let time = self.time.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok()).unwrap_or(Duration::MAX);
+        let time = self.time().unwrap_or(Duration::MAX);
         let mut steps_left = self.steps.unwrap_or(u64::MAX);
         while steps_left > 0 && run.elapsed() < time {
             match run.step(&Cancel::default()) {

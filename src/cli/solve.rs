@@ -1,9 +1,14 @@
 //! `lightwell solve`: where the light went.
 
-use super::CliError;
+use super::photon_options::{LightMethod, PhotonOptions};
 use super::run_options::{RunOptions, Solved};
-use crate::choice::Choice;
+use super::tracing::{Tracing, photon_report};
+use super::{CliError, refuse};
+use crate::choice::{Choice, parse};
 use crate::math::rgb::total;
+use crate::methods::Settings;
+use crate::solution::PhotonSolution;
+use crate::world::World;
 use serde_json::{Value, json};
 use std::io::Write;
 
@@ -11,20 +16,51 @@ use std::io::Write;
 pub struct Options {
     #[command(flatten)]
     run: RunOptions,
+    /// How light is computed: radiosity or photon-map
+    #[arg(long, value_name = "METHOD", default_value = LightMethod::default().name(), value_parser = parse::<LightMethod>)]
+    method: LightMethod,
+    #[command(flatten)]
+    photons: PhotonOptions,
     /// Print one JSON object and nothing else
     #[arg(long)]
     json: bool,
 }
 
 pub fn run(options: &Options) -> Result<(), CliError> {
-    let solved = options.run.solve()?;
+    check_method(options.method, &options.run, &options.photons);
+    let (report, text) = match options.method {
+        LightMethod::Radiosity => {
+            let solved = options.run.solve()?;
+            (report(&solved), text(&solved))
+        }
+        LightMethod::PhotonMap => {
+            let settings = Settings { photons: options.photons.settings(), ..options.run.settings() };
+            let mut tracing = Tracing::new(options.run.open()?, settings, options.run.time());
+            let photons = tracing.trace(|_| ())?;
+            (photon_report(&tracing.world, &settings, &photons), photon_text(&tracing.world, &photons))
+        }
+    };
     let mut out = std::io::stdout().lock();
     if options.json {
-        writeln!(out, "{}", report(&solved))?;
+        writeln!(out, "{report}")?;
     } else {
-        write!(out, "{}", text(&solved))?;
+        write!(out, "{text}")?;
     }
     Ok(())
+}
+
+/// Ends the program, as any other wrong command line does, where an option is about another method.
+pub fn check_method(method: LightMethod, run: &RunOptions, photons: &PhotonOptions) {
+    let stranger = match method {
+        LightMethod::Radiosity => photons.given(),
+        LightMethod::PhotonMap => run.stop_of_radiosity().or(run.light_rays.map(|_| "--light-rays")),
+    };
+    if let Some(option) = stranger {
+        refuse(&format!("{option} is not for --method {}", method.name()));
+    }
+    if let Some(objection) = run.objection_by_radiosity() {
+        refuse(&objection);
+    }
 }
 
 /// Energies are in W, summed over red, green and blue.
@@ -53,16 +89,49 @@ pub fn report(solved: &Solved) -> Value {
     })
 }
 
+/// A line of the ledger, with its share of what was emitted.
+fn row(name: &str, watts: f64, emitted: f64) -> String {
+    let share = if emitted > 0.0 { 100.0 * watts / emitted } else { 0.0 };
+    let watts =
+        if (1e-3..1e7).contains(&watts) || watts == 0.0 { format!("{watts:.6}") } else { format!("{watts:.6e}") };
+    format!("  {name:<10} {watts:>14} W {share:>9.4} %\n")
+}
+
+fn defect_row(watts: f64) -> String {
+    format!("  {:<10} {watts:>14.1e} W\n", "defect")
+}
+
+fn photon_text(world: &World, photons: &PhotonSolution) -> String {
+    let PhotonSolution { energy, counters, .. } = photons;
+    let emitted = total(energy.emitted);
+    let mut text = format!(
+        "{}: photon map, {} passes in {:.3} s, {}\n",
+        world.scene.name,
+        photons.passes,
+        photons.elapsed.as_secs_f64(),
+        if photons.is_complete { "complete" } else { "not complete" },
+    );
+    text += &row("emitted", emitted, emitted);
+    text += &row("absorbed", total(energy.absorbed), emitted);
+    text += &row("escaped", total(energy.escaped), emitted);
+    text += &row("truncated", total(energy.truncated), emitted);
+    text += &defect_row(total(energy.defect()));
+    text += &format!("  photons of the last pass: {} emitted, {} landings stored", counters.emitted, counters.stored);
+    if counters.caustic_emitted > 0 {
+        let (emitted, stored) = (counters.caustic_emitted, counters.caustic_stored);
+        text += &format!("; for caustics {emitted} emitted, {stored} stored");
+    }
+    text += &format!("; {} rays\n  landings by path:", counters.rays);
+    for (path, count) in &counters.by_path {
+        text += &format!(" {path} {count}");
+    }
+    text + "\n"
+}
+
 fn text(solved: &Solved) -> String {
     let Solved { world, settings, solution } = solved;
     let energy = &solution.energy;
     let emitted = total(energy.emitted);
-    let row = |name: &str, watts: f64| {
-        let share = if emitted > 0.0 { 100.0 * watts / emitted } else { 0.0 };
-        let watts =
-            if (1e-3..1e7).contains(&watts) || watts == 0.0 { format!("{watts:.6}") } else { format!("{watts:.6e}") };
-        format!("  {name:<10} {watts:>14} W {share:>9.4} %\n")
-    };
     let mut text = format!(
         "{}: {} patches, {} elements\nradiosity, {}, form factors by {}: {} {}s in {:.3} s, {} rays, {}\n",
         world.scene.name,
@@ -76,11 +145,11 @@ fn text(solved: &Solved) -> String {
         solution.counters.rays,
         if solution.converged { "converged" } else { "not converged" },
     );
-    text += &row("emitted", emitted);
-    text += &row("absorbed", total(energy.absorbed));
-    text += &row("unshot", total(energy.unshot));
-    text += &row("escaped", total(energy.escaped));
-    text += &format!("  {:<10} {:>14.1e} W\n", "defect", total(energy.defect()));
+    text += &row("emitted", emitted, emitted);
+    text += &row("absorbed", total(energy.absorbed), emitted);
+    text += &row("unshot", total(energy.unshot), emitted);
+    text += &row("escaped", total(energy.escaped), emitted);
+    text += &defect_row(total(energy.defect()));
     text += &format!(
         "  closure of form factors: mean {:.2e}, worst {:.2e}\n",
         solution.closure.mean, solution.closure.worst

@@ -48,6 +48,12 @@ pub fn hemicube_resolution(text: &str) -> Result<u32, String> {
     cells.ok_or_else(|| format!("an even number from {} to {} is wanted", range.start(), range.end()))
 }
 
+/// A number from 1 to `MOST`.
+pub fn count<const MOST: u32>(text: &str) -> Result<u32, String> {
+    let count = text.parse().ok().filter(|count| (1..=MOST).contains(count));
+    count.ok_or_else(|| format!("a whole number from 1 to {MOST} is wanted"))
+}
+
 /// An angle of view in degrees.
 pub fn field_of_view(text: &str) -> Result<f32, String> {
     let degrees = text.parse().ok().filter(|degrees| (1.0..=170.0).contains(degrees));
@@ -58,6 +64,18 @@ pub fn field_of_view(text: &str) -> Result<f32, String> {
 pub fn stops(text: &str) -> Result<f32, String> {
     let stops = text.parse().ok().filter(|stops: &f32| stops.abs() <= 64.0);
     stops.ok_or_else(|| "a number of stops is wanted, as in -1.5".to_owned())
+}
+
+/// A folder that is there, or can be made in one that is.
+pub fn folder(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty());
+    match parent {
+        _ if path.is_dir() => Ok(path),
+        _ if path.exists() => Err(format!("{} is not a folder", path.display())),
+        Some(parent) if !parent.is_dir() => Err(format!("there is no folder {}", parent.display())),
+        _ => Ok(path),
+    }
 }
 
 /// The file of a picture: its format is known by its ending.
@@ -85,6 +103,8 @@ mod tests {
         assert!(size("640").is_err() && size("0x3").is_err() && size("-1x3").is_err());
         assert_eq!(percent("100"), Ok(100.0));
         assert!(percent("0").is_err() && percent("101").is_err() && percent("inf").is_err());
+        assert_eq!((count::<5>("5"), count::<5>("1")), (Ok(5), Ok(1)));
+        assert!(count::<5>("0").is_err() && count::<5>("6").is_err() && count::<5>("1.5").is_err());
         assert!(picture_path("picture.jpg").is_err() && picture_path("no/such/folder/picture.png").is_err());
         assert_eq!(picture_path("picture.EXR"), Ok(PathBuf::from("picture.EXR")));
     }

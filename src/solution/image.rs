@@ -34,6 +34,11 @@ impl CameraView {
     pub fn needs_radiosity(self) -> bool {
         self == Self::RadiositySpecular
     }
+
+    /// Whether shadow rays find the light of the emitters.
+    pub fn samples_emitters(self) -> bool {
+        matches!(self, Self::RayTraced | Self::FinalGather)
+    }
 }
 
 impl Choice for CameraView {

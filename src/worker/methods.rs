@@ -35,7 +35,11 @@ impl Methods {
     }
 
     fn sources(&mut self, lights: Lights<'_, TracedPhotons>) -> Sources {
-        Sources { transport: self.transport(lights.world), radiosity: lights.radiosity }
+        Sources {
+            transport: self.transport(lights.world),
+            radiosity: lights.radiosity,
+            photons: lights.photons.map(|photons| photons.maps()),
+        }
     }
 }
 
@@ -83,8 +87,8 @@ impl TracedPhotons {
         self.mapping.maps()
     }
 
-    /// The surface at a point, seen from the side that the unit `normal` faces.
-    fn surface(&self, point: Vec3A, normal: Vec3A) -> Option<Surface> {
+    /// The surface at a point, seen from the side that the unit `normal` faces; `None` where there is none.
+    pub fn surface(&self, point: Vec3A, normal: Vec3A) -> Option<Surface> {
         let reach = ON_SURFACE * self.transport.world.bounds.radius();
         let surface = self.transport.meet(&Ray { origin: point + reach * normal, direction: -normal })?;
         (surface.distance <= 2.0 * reach).then_some(surface)

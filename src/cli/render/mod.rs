@@ -1,0 +1,100 @@
+//! `lightwell render`: a picture without a window.
+
+mod diagrams;
+mod subject;
+mod views;
+
+use super::camera_options::CameraOptions;
+use super::image_options::ImageOptions;
+use super::photon_options::PhotonOptions;
+use super::run_options::RunOptions;
+use super::{CliError, picture, refuse, values};
+use crate::choice::Choice;
+use crate::methods::Settings;
+use crate::viewport::{Picture, View};
+use serde_json::{Value, json};
+use std::io::Write;
+use std::path::PathBuf;
+use subject::Subject;
+
+#[derive(clap::Args, Debug)]
+pub struct Options {
+    #[command(flatten)]
+    run: RunOptions,
+    /// The picture's file, .png or .exr
+    #[arg(short, long, value_name = "FILE", value_parser = values::picture_path)]
+    output: PathBuf,
+    /// What to show: patches, smooth, unshot, absorbed, bounces or form-factors of radiosity; photons or kd-tree;
+    /// photon-irradiance, photon-radiance, caustics, ray-traced, radiosity-specular or final-gather by rays from the
+    /// camera; the diagrams matrix or item-buffer
+    #[arg(long, default_value = View::default().name(), value_parser = Subject::parse)]
+    view: Subject,
+    /// How many bounces of light the view `bounces` shows
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    bounce: usize,
+    /// Add to patches and smooth light what the unshot light will bring on average
+    #[arg(long)]
+    ambient: bool,
+    /// The patch that the views `form-factors` and `item-buffer` are of
+    #[arg(long, value_name = "N", group = "picked")]
+    patch: Option<u32>,
+    /// The same: the patch seen at this place in a view of this size, in pixels from the top left
+    #[arg(long, value_name = "X,Y", group = "picked", value_parser = values::pixel)]
+    pick: Option<[f32; 2]>,
+    /// Outline the elements
+    #[arg(long)]
+    wireframe: bool,
+    /// Samples a pixel, by rays from the camera one by one and else in steps of four [default: 16, or as many as --time
+    /// allows]; where --passes asks for more passes than one, each gives a sample
+    #[arg(long, value_name = "N", value_parser = values::count::<4096>)]
+    samples: Option<u32>,
+    #[command(flatten)]
+    photons: PhotonOptions,
+    #[command(flatten)]
+    image: ImageOptions,
+    #[command(flatten)]
+    camera: CameraOptions,
+    /// Print one JSON object and nothing else
+    #[arg(long)]
+    json: bool,
+}
+
+/// A picture, what is said of it in its file, and the report.
+struct Drawn {
+    picture: Picture,
+    facts: Vec<(String, String)>,
+    /// What is said of the picture itself goes under `picture`.
+    report: Value,
+}
+
+pub fn run(options: &Options) -> Result<(), CliError> {
+    if let Some(objection) = options.objection() {
+        refuse(&objection);
+    }
+    let Drawn { picture, facts, mut report } = match options.view {
+        Subject::View(view) => options.draw_view(view)?,
+        Subject::Diagram(diagram) => options.draw_diagram(diagram)?,
+    };
+    picture::save(&options.output, &picture, &facts)?;
+    if options.json {
+        report["picture"]["file"] = json!(options.output);
+        report["picture"]["size"] = json!(picture.size);
+        report["picture"]["view"] = json!(options.view.name());
+        writeln!(std::io::stdout(), "{report}")?;
+    }
+    Ok(())
+}
+
+/// Samples a pixel where nothing is said.
+const SAMPLES: u32 = 16;
+
+impl Options {
+    fn settings(&self) -> Settings {
+        let settings = self.run.settings();
+        // Those of radiosity are as many as its own options say; what a camera takes is another number.
+        let light_rays = if self.view.is_radiosity() { settings.light_rays } else { Settings::default().light_rays };
+        let own = self.run.light_rays.filter(|_| self.view.samples_emitters());
+        let image = self.image.settings(own);
+        Settings { light_rays, photons: self.photons.settings(), image, ..settings }
+    }
+}

@@ -1,0 +1,126 @@
+//! What a picture is of, and which options that takes.
+
+use super::Options;
+use crate::choice::Choice;
+use crate::methods::{ImageSettings, Solver};
+use crate::solution::CameraView;
+use crate::viewport::View;
+use crate::viewport::diagram::Diagram;
+
+/// What a picture is of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Subject {
+    View(View),
+    Diagram(Diagram),
+}
+
+impl Subject {
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::View(view) => view.name(),
+            Self::Diagram(diagram) => diagram.name(),
+        }
+    }
+
+    fn all() -> impl Iterator<Item = Self> {
+        View::ALL.iter().copied().map(Self::View).chain(Diagram::ALL.iter().copied().map(Self::Diagram))
+    }
+
+    pub fn parse(text: &str) -> Result<Self, String> {
+        Self::all().find(|subject| subject.name() == text).ok_or_else(|| {
+            let names: Vec<_> = Self::all().map(Self::name).collect();
+            format!("no view is called `{text}` (there are {})", names.join(", "))
+        })
+    }
+
+    /// The picture from a camera that it is, if it is one.
+    fn camera_view(self) -> Option<CameraView> {
+        match self {
+            Self::View(View::Camera(view)) => Some(view),
+            _ => None,
+        }
+    }
+
+    /// Whether it shows photons or is read off them.
+    fn is_of_photons(self) -> bool {
+        match self {
+            Self::View(view) => view.shows_photons() || self.camera_view().is_some_and(CameraView::needs_photons),
+            Self::Diagram(_) => false,
+        }
+    }
+
+    /// Whether radiosity is computed for it.
+    pub fn is_radiosity(self) -> bool {
+        !self.is_of_photons() && self.camera_view().is_none_or(CameraView::needs_radiosity)
+    }
+
+    /// Whether it is found by shadow rays to the emitters.
+    pub fn samples_emitters(self) -> bool {
+        self.camera_view().is_some_and(CameraView::samples_emitters)
+    }
+
+    /// Whether it can be of some paths of light only.
+    fn has_paths(self) -> bool {
+        !self.is_radiosity()
+    }
+}
+
+impl Options {
+    /// Why these options do not lead to the picture, if they do not.
+    pub(super) fn objection(&self) -> Option<String> {
+        self.what_is_needed().map(str::to_owned).or_else(|| self.what_is_strange())
+    }
+
+    fn what_is_needed(&self) -> Option<&'static str> {
+        let solver = self.run.settings().solver;
+        match self.view {
+            Subject::View(View::FormFactors) | Subject::Diagram(Diagram::ItemBuffer)
+                if self.patch.is_none() && self.pick.is_none() =>
+            {
+                Some("this view is of one patch: --patch N or --pick X,Y says which")
+            }
+            Subject::View(View::Bounces) if solver != Solver::Jacobi => {
+                Some("light is kept bounce by bounce by --solver jacobi alone")
+            }
+            Subject::Diagram(Diagram::Matrix) if !solver.needs_matrix() => {
+                Some("a matrix is kept by --solver jacobi|gauss-seidel|southwell alone")
+            }
+            _ => None,
+        }
+    }
+
+    /// Options that the view does not use, or not so.
+    fn what_is_strange(&self) -> Option<String> {
+        let view = self.view;
+        let unused = |option: &str| Some(format!("{option} is not for the view `{}`", view.name()));
+        if view.is_radiosity() {
+            if let Some(objection) = self.run.objection_by_radiosity() {
+                return Some(objection);
+            }
+        } else if let Some(option) = self.run.stop_of_radiosity() {
+            return unused(option);
+        }
+        if let Some(option) = self.photons.given().filter(|_| !view.is_of_photons()) {
+            return unused(option);
+        }
+        if self.image.gather_rays.is_some() && view.camera_view() != Some(CameraView::FinalGather) {
+            return unused("--gather-rays");
+        }
+        if self.image.paths.is_some() && !view.has_paths() {
+            return unused("--paths");
+        }
+        if let Some(rays) = self.run.light_rays.filter(|_| !view.is_radiosity()) {
+            if !view.samples_emitters() {
+                return unused("--light-rays");
+            }
+            if rays > ImageSettings::MAX_LIGHT_RAYS {
+                return Some(format!("this view takes up to {} --light-rays", ImageSettings::MAX_LIGHT_RAYS));
+            }
+        }
+        let has_passes = view.is_of_photons() && view.camera_view().is_some();
+        if has_passes && self.samples.is_some() && self.photons.settings().is_progressive {
+            return Some("each of the --passes gives one sample a pixel: --samples is of no use with it".to_owned());
+        }
+        None
+    }
+}

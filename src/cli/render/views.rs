@@ -1,0 +1,126 @@
+//! Views: of radiosity, of photons, and by rays from the camera.
+
+use super::{Drawn, Options, SAMPLES};
+use crate::cli::run_options::Solved;
+use crate::cli::solve::report;
+use crate::cli::tracing::{Tracing, photon_report};
+use crate::cli::{CliError, picture};
+use crate::methods::Settings;
+use crate::solution::{CameraImage, CameraView, Solution};
+use crate::viewport::{Frame, Gpu, Legend, Light, PhotonLook, View, render_picture};
+use crate::worker::CameraShot;
+use crate::world::World;
+use serde_json::{Value, json};
+use std::sync::Arc;
+
+impl Options {
+    pub(super) fn draw_view(&self, view: View) -> Result<Drawn, CliError> {
+        // Whether there is something to draw with is told before the time is spent.
+        let gpu = Gpu::new(&self.camera.adapter)?;
+        match view {
+            View::Camera(view) => self.draw_by_rays(&gpu, view),
+            View::Photons | View::KdTree => self.draw_photons(&gpu, view),
+            _ => self.draw_radiosity(&gpu, view),
+        }
+    }
+
+    fn draw_radiosity(&self, gpu: &Gpu, view: View) -> Result<Drawn, CliError> {
+        let (solved, light) = self.solve()?;
+        if let Some(reason) = view.missing(&light) {
+            return Err(CliError::Missing(reason));
+        }
+        let kept = solved.solution.bounces.len();
+        if view == View::Bounces && self.bounce >= kept {
+            return Err(CliError::NoSuchBounce { kept: kept - 1 });
+        }
+        let Solved { world, settings, solution } = &solved;
+        let frame = self.frame(world, settings, view, Some(solution));
+        let mut report = report(&solved);
+        report["picture"] = match &light.picked {
+            Some(picked) if view.is_false_colour() => {
+                let legend = Legend::of(view, &light).map(|legend| json!({ "low": legend.low, "high": legend.high }));
+                json!({ "patch": picked.patch, "legend": legend })
+            }
+            _ => json!({ "exposure": frame.exposure_ev }),
+        };
+        self.draw(gpu, world, settings, &light, &frame, report)
+    }
+
+    fn draw_photons(&self, gpu: &Gpu, view: View) -> Result<Drawn, CliError> {
+        let settings = self.settings();
+        let mut tracing = Tracing::new(self.run.open()?, settings, self.run.time());
+        let photons = tracing.trace(|_| ())?;
+        let mut report = photon_report(&tracing.world, &settings, &photons);
+        report["picture"] = json!({ "photons": photons.photons.len() });
+        let light = Light { photons: Some(Arc::new(photons)), ..Light::default() };
+        if let Some(reason) = view.missing(&light) {
+            return Err(CliError::Missing(reason));
+        }
+        let frame = self.frame(&tracing.world, &settings, view, None);
+        self.draw(gpu, &tracing.world, &settings, &light, &frame, report)
+    }
+
+    fn draw_by_rays(&self, gpu: &Gpu, view: CameraView) -> Result<Drawn, CliError> {
+        let settings = self.settings();
+        let world = self.run.open()?;
+        let solved = view.needs_radiosity().then(|| self.run.solve_in(world.clone())).transpose()?;
+        let solution = solved.as_ref().map(|solved| Arc::new(solved.solution.clone()));
+        let mut tracing = Tracing::new(world, settings, self.run.time().filter(|_| solved.is_none()));
+        let shot = CameraShot { view, camera: self.camera.camera(&tracing.world), size: self.camera.size };
+        let is_timed = self.run.time().is_some() && solved.is_none();
+        let samples = self.samples.or((!is_timed).then_some(SAMPLES));
+        let (image, photons) = tracing.picture(&shot, solution.clone(), samples)?;
+        let world = &tracing.world;
+        let frame = self.frame(world, &settings, View::Camera(view), solution.as_deref());
+        let mut report = match (&solved, &photons) {
+            (Some(solved), _) => report(solved),
+            (None, Some(photons)) => photon_report(world, &settings, photons),
+            (None, None) => json!({ "scene": world.scene.name, "method": "ray-tracing" }),
+        };
+        report["picture"] = image_report(&image, frame.exposure_ev);
+        let light =
+            Light { solution, photons: photons.map(Arc::new), image: Some(Arc::new(image)), ..Light::default() };
+        self.draw(gpu, world, &settings, &light, &frame, report)
+    }
+
+    fn frame(&self, world: &World, settings: &Settings, view: View, solution: Option<&Solution>) -> Frame {
+        Frame {
+            camera: self.camera.camera(world),
+            size: self.camera.size,
+            view,
+            bounce: self.bounce,
+            ambient: self.ambient,
+            wireframe: self.wireframe,
+            show_shooter: false,
+            photons: PhotonLook::default(),
+            filter: settings.image.filter,
+            exposure_ev: self.camera.exposure_ev(world, solution),
+            tone: self.camera.tone,
+        }
+    }
+
+    fn draw(
+        &self,
+        gpu: &Gpu,
+        world: &Arc<World>,
+        settings: &Settings,
+        light: &Light,
+        frame: &Frame,
+        report: Value,
+    ) -> Result<Drawn, CliError> {
+        // A picture by rays has its samples already.
+        let samples = if matches!(frame.view, View::Camera(_)) { 1 } else { self.samples.unwrap_or(SAMPLES) };
+        let picture = render_picture(gpu, world, light, frame, samples)?;
+        Ok(Drawn { picture, facts: picture::facts(world, light, settings, frame), report })
+    }
+}
+
+/// What there is to say of a picture by rays.
+pub fn image_report(image: &CameraImage, exposure_ev: f32) -> Value {
+    json!({
+        "exposure": exposure_ev,
+        "samples": image.samples,
+        "rays": image.rays,
+        "seconds": image.elapsed.as_secs_f64(),
+    })
+}
