@@ -142,13 +142,21 @@ impl Camera {
     /// The ray from the eye through a point of a picture of this size, both in pixels; the point counts from the top left
     /// corner.
     pub fn ray(&self, at: [f32; 2], size: [u32; 2]) -> Ray {
+        self.rays(size).through(at)
+    }
+
+    /// All rays from the eye through a picture of this size, in pixels.
+    pub fn rays(&self, size: [u32; 2]) -> EyeRays {
         let [width, height] = size.map(f64::from);
         let half_height = (0.5 * self.vertical_fov).tan();
         let (right, up) = self.right_and_up();
-        let along_x = (2.0 * f64::from(at[0]) - width) / height * half_height;
-        let along_y = (1.0 - 2.0 * f64::from(at[1]) / height) * half_height;
-        let direction = (along_x * right + along_y * up - self.direction()).normalize();
-        Ray { origin: self.eye().as_vec3a(), direction: direction.as_vec3a() }
+        let pixel = 2.0 * half_height / height;
+        EyeRays {
+            eye: self.eye(),
+            top_left: half_height * (up - width / height * right) - self.direction(),
+            right: pixel * right,
+            down: -pixel * up,
+        }
     }
 
     /// From the target to the eye, of unit length.
@@ -171,6 +179,24 @@ impl Camera {
     fn right_and_up(&self) -> (DVec3, DVec3) {
         let right = self.up.cross(self.direction()).normalize();
         (right, self.direction().cross(right))
+    }
+}
+
+/// The rays from an eye through the plane of a picture.
+#[derive(Clone, Copy, Debug)]
+pub struct EyeRays {
+    eye: DVec3,
+    /// From the eye to the picture's corner, and from there along one pixel.
+    top_left: DVec3,
+    right: DVec3,
+    down: DVec3,
+}
+
+impl EyeRays {
+    /// The ray through a point in pixels, counted from the top left corner.
+    pub fn through(&self, at: [f32; 2]) -> Ray {
+        let direction = self.top_left + f64::from(at[0]) * self.right + f64::from(at[1]) * self.down;
+        Ray { origin: self.eye.as_vec3a(), direction: direction.normalize().as_vec3a() }
     }
 }
 

@@ -1,6 +1,14 @@
 //! Photons against closed forms, against brute force, and against their own books.
 
+mod agreement;
+mod boundary;
 mod furnace;
+mod ledger;
+#[path = "../common/oracle.rs"]
+mod oracle;
+mod progressive;
+mod repeat;
+mod rooms;
 
 use glam::Vec3A;
 use lightwell::cancel::Cancel;
@@ -26,8 +34,8 @@ fn settings(photons: PhotonSettings) -> Settings {
     Settings { photons, ..Settings::default() }
 }
 
-fn run_to_end(transport: &Arc<Transport>, settings: &Settings) -> PhotonMapping {
-    let mut mapping = PhotonMapping::new(transport.clone(), settings);
+fn run_to_end(transport: &Arc<Transport>, photons: PhotonSettings) -> PhotonMapping {
+    let mut mapping = PhotonMapping::new(transport.clone(), &settings(photons));
     while mapping.step(&Cancel::default()) == Step::Advanced {}
     mapping
 }
@@ -36,4 +44,9 @@ fn run_to_end(transport: &Arc<Transport>, settings: &Settings) -> PhotonMapping 
 fn meet(transport: &Transport, origin: impl Into<Vec3A>, direction: impl Into<Vec3A>) -> Surface {
     let ray = Ray { origin: origin.into(), direction: direction.into().normalize() };
     transport.meet(&ray).expect("a surface")
+}
+
+/// The surface at a place, on the side to which `normal` points.
+fn at(transport: &Transport, place: impl Into<Vec3A>, normal: Vec3A) -> Surface {
+    meet(transport, place.into() + 1e-3 * normal, -normal)
 }

@@ -95,7 +95,7 @@ impl ImageRun {
             size,
             settings: settings.image,
             path: sources.eye_path(view, &settings.image)?,
-            film: Film::new(camera, size, settings.seed),
+            film: Film::new(&camera, size, settings.seed),
         })
     }
 

@@ -26,3 +26,26 @@ pub fn share_within(kernel: Kernel, reach: f32) -> f32 {
         Kernel::Epanechnikov => square * (2.0 - square),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::choice::Choice;
+
+    #[test]
+    fn kernels_have_an_integral_of_1_and_grow_to_it_from_the_middle() {
+        let (radius, rings) = (0.7_f32, 4096);
+        for &kernel in Kernel::ALL {
+            let mut integral = 0.0;
+            for ring in 0..rings {
+                let (middle, end) = ((ring as f32 + 0.5) / rings as f32, (ring as f32 + 1.0) / rings as f32);
+                let distance = radius * middle;
+                integral += value(kernel, distance * distance, radius) * 2.0 * PI * distance * radius / rings as f32;
+                // The midpoint rule is good to 1/n², the sums in single precision to 1e-5.
+                assert!((integral - share_within(kernel, end)).abs() < 2e-5, "{kernel:?} {end}: {integral}");
+            }
+            assert!((integral - 1.0).abs() < 2e-5, "{kernel:?} {integral}");
+            assert_eq!(value(kernel, 1.01 * radius * radius, radius), 0.0);
+        }
+    }
+}

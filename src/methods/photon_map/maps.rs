@@ -2,11 +2,14 @@
 
 use super::density::{Estimate, Sum};
 use super::ground::Ground;
+use super::horizon::Horizon;
 use super::nearest::Nearest;
+use super::trace::is_caustic;
 use super::tree::{Entry, Found, Tree};
 use crate::methods::Kernel;
 use crate::methods::transport::{Surface, Transport};
 use crate::solution::{Gathered, Path, Photon, Split};
+use glam::Vec3A;
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -28,7 +31,7 @@ impl Kind {
     fn of(path: Path) -> Self {
         if path.is_empty() {
             Self::Direct
-        } else if path.is_caustic() {
+        } else if is_caustic(path) {
             Self::Caustic
         } else {
             Self::Indirect
@@ -72,6 +75,7 @@ pub struct PhotonFilter {
 #[derive(Clone, Debug, Default)]
 pub struct Scratch {
     nearest: Nearest,
+    horizon: Horizon,
 }
 
 /// How photons are gathered.
@@ -123,8 +127,8 @@ impl Trees {
             let tag = ground.group(photon.side) << KIND_BITS | Kind::of(photon.path) as u32;
             Entry { position: photon.position, index: index as u32, tag }
         };
-        let is_caustic = |index: &usize| has_caustic_map && photons[*index].path.is_caustic();
-        let (caustic, global): (Vec<usize>, Vec<usize>) = (0..photons.len()).partition(is_caustic);
+        let belongs_to_caustics = |index: &usize| has_caustic_map && is_caustic(photons[*index].path);
+        let (caustic, global): (Vec<usize>, Vec<usize>) = (0..photons.len()).partition(belongs_to_caustics);
         let map = |indices: Vec<usize>, scale| Map { tree: Tree::new(indices.into_iter().map(entry).collect()), scale };
         let (global, caustic) = (map(global, scales[0]), map(caustic, scales[1]));
         let mut paths = Vec::new();
@@ -137,6 +141,12 @@ impl Trees {
         });
         let path_of = path_of.collect();
         Self { transport, ground, photons, global, caustic, paths, path_of, has_caustic_map, is_complete }
+    }
+
+    /// Where the surface ends within `radius`, m.
+    fn look_round(&self, at: &Surface, radius: f32, horizon: &mut Horizon) {
+        horizon.begin(self.ground.inside(at), at.facing);
+        self.ground.segments(self.ground.group(at.side()), at.point, radius, |segment| horizon.add(segment, radius));
     }
 }
 
@@ -198,9 +208,10 @@ impl PhotonMaps {
         for map in [&self.trees.global, &self.trees.caustic] {
             let mut own = Vec::new();
             let part = self.sum(map, at, Which::All, &mut scratch, &mut |photon| own.push(photon));
-            let radius = part.radius();
             own.sort_unstable();
-            map.tree.search(at.point, radius * radius, |found, bound| {
+            // What is on the rim does not count, but belongs.
+            let within = part.radius().powi(2) * (1.0 - 4.0 * f32::EPSILON);
+            map.tree.search(at.point, within, |found, bound| {
                 let photon = map.tree.index(found.slot);
                 if own.binary_search(&photon).is_err() {
                     rejected.push(photon);
@@ -226,31 +237,58 @@ impl PhotonMaps {
 
     /// Photons of a map, weighted and summed; each is told to `used`.
     fn sum(&self, map: &Map, at: &Surface, which: Which, scratch: &mut Scratch, used: &mut impl FnMut(u32)) -> Sum {
-        let Gathering { nearest, kernel, max_radius } = self.gathering;
+        if map.tree.is_empty() {
+            return Sum::default();
+        }
+        let Gathering { nearest: limit, kernel, max_radius } = self.gathering;
+        let Scratch { nearest, horizon } = scratch;
         let trees = &*self.trees;
-        let group = trees.ground.group_of(at);
-        let kinds = which.kinds();
+        let ground = &*trees.ground;
+        let (group, kinds) = (ground.group(at.side()), which.kinds());
+        let photon = |found: &Found| &trees.photons[map.tree.index(found.slot) as usize];
         let passes = |found: &Found| match which {
             Which::Filtered(filter) => filter.passes[trees.path_of[map.tree.index(found.slot) as usize] as usize],
             _ => true,
         };
-        let counts =
-            |found: &Found| found.tag >> KIND_BITS == group && kinds >> (found.tag & 0b11) & 1 == 1 && passes(found);
-        scratch.nearest.begin(nearest.unwrap_or(usize::MAX));
+        trees.look_round(at, max_radius, horizon);
+        let is_flat = !ground.is_curved(group);
+        let (is_open, horizon) = (horizon.is_open(), &*horizon);
+        let counts = |found: &Found| {
+            found.tag >> KIND_BITS == group
+                && kinds >> (found.tag & 0b11) & 1 == 1
+                && passes(found)
+                && (is_flat || bends_little(ground, at, photon(found)))
+                && (is_open || horizon.sees(photon(found).position.into()))
+        };
+        nearest.begin(limit.unwrap_or(usize::MAX));
         map.tree.search(at.point, max_radius * max_radius, |found, bound| {
-            if counts(&found) { scratch.nearest.add(&found, bound) } else { bound }
+            if counts(&found) { nearest.add(&found, bound) } else { bound }
         });
-        // The farthest is on the rim: of the photons within, there is one less, and no bias (facts of order statistics).
-        let rim = scratch.nearest.end();
-        let mut sum = Sum::new(rim.map_or(max_radius, f32::sqrt), 1.0);
-        let points = scratch.nearest.points();
+        // The farthest of k is the rim. Of those within the rim there are k − 1, which makes the estimate unbiased; all k
+        // would be k / (k − 1) too many.
+        let rim = nearest.end();
+        let radius = rim.map_or(max_radius, f32::sqrt);
+        let mut sum = Sum::new(radius, horizon.inside(kernel, radius));
+        let points = nearest.points();
         let within = points.len() - usize::from(rim.is_some());
         for (square_distance, slot) in points.take(within) {
-            let photon = map.tree.index(slot);
-            sum.add(trees.photons[photon as usize].flux, square_distance, kernel);
-            used(photon);
+            let index = map.tree.index(slot);
+            sum.add(trees.photons[index as usize].flux, square_distance, kernel);
+            used(index);
         }
         sum.scale(map.scale);
         sum
     }
+}
+
+/// Whether a photon landed on a surface that faces about the same way and is not far off the plane of another place of it.
+fn bends_little(ground: &Ground, at: &Surface, photon: &Photon) -> bool {
+    /// Cosine of the largest angle between the two: 60°.
+    const FACING: f32 = 0.5;
+    /// Sine of the largest elevation: half that angle, on a round body.
+    const ELEVATION: f32 = 0.5;
+    let way = Vec3A::from(photon.position) - at.point;
+    let height = way.dot(at.facing);
+    ground.facing(photon.side).dot(at.facing) >= FACING
+        && height * height <= ELEVATION * ELEVATION * way.length_squared()
 }

@@ -2,8 +2,12 @@
 //! where they are dense, there is much light.
 
 mod batch;
+mod border;
+mod box_tree;
 mod density;
+mod facet;
 mod ground;
+mod horizon;
 mod kernel;
 mod maps;
 mod nearest;
@@ -16,7 +20,10 @@ mod tree;
 
 pub use density::Estimate;
 pub use maps::{PhotonFilter, PhotonMaps, Scratch, Which};
+pub use nearest::Nearest;
 pub use points::ProgressivePoints;
+pub use trail::trail;
+pub use tree::{Entry, Found, Tree};
 
 use crate::cancel::{Cancel, Cancelled};
 use crate::math::rgb::Rgb;
@@ -31,7 +38,6 @@ use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 use tally::Tally;
 use trace::{MapKind, Shower};
-pub use trail::trail;
 
 /// Photons of a batch, unless they bounce for long.
 const BATCH: u64 = 1 << 14;

@@ -16,3 +16,20 @@ pub fn shrinkage(pass: u64) -> f64 {
 pub fn radius_for(wanted: f64, landings: f64, area: f64) -> f64 {
     (wanted * area / (PI * landings)).sqrt()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn radii_shrink_as_published() {
+        assert_eq!(shrinkage(0), 1.0);
+        assert!((shrinkage(9) - 0.713_103).abs() < 1e-6 && (shrinkage(99) - 0.488_251).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_disc_of_the_radius_holds_what_is_wanted() {
+        let radius = radius_for(50.0, 2000.0, 3.0);
+        assert!((PI * radius * radius / 3.0 * 2000.0 - 50.0).abs() < 1e-9);
+    }
+}

@@ -22,6 +22,12 @@ pub enum MapKind {
     Caustic,
 }
 
+/// Whether light that came along this path belongs to a caustic where it lands. Of the longest paths the beginning is not
+/// known: they count as any other light, in both maps.
+pub fn is_caustic(path: Path) -> bool {
+    path.is_caustic() && path.len() < Path::MAX_EVENTS
+}
+
 /// Photons that share the flux of all emitters.
 #[derive(Clone, Copy)]
 pub struct Shower<'a> {

@@ -118,6 +118,10 @@ impl Tree {
         }
     }
 
+    pub fn is_empty(&self) -> bool {
+        self.blocks.is_empty()
+    }
+
     /// The photon at a slot.
     pub fn index(&self, slot: u32) -> u32 {
         self.indices[slot as usize]
@@ -126,7 +130,7 @@ impl Tree {
     /// Calls `visit` with every point that is nearer than the square root of `bound`, m², the near parts of the tree first.
     /// It returns the bound from then on.
     pub fn search(&self, at: Vec3A, mut bound: f32, mut visit: impl FnMut(Found, f32) -> f32) {
-        if self.blocks.is_empty() {
+        if self.is_empty() {
             return;
         }
         let mut tasks = [Task::default(); DEEPEST];
@@ -240,5 +244,79 @@ fn place(levels: &Levels, node: usize, planes: &mut [Plane]) {
         planes[node] = *plane;
         place(&parts[0], 2 * node, planes);
         place(&parts[1], 2 * node + 1, planes);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::random::Stream;
+
+    fn entries(count: u32) -> Vec<Entry> {
+        let mut stream = Stream::new(5, 0, count.into());
+        let entry = |index| {
+            let (across, up) = (stream.uniform2(), stream.uniform());
+            // Many points share coordinates, as on a floor.
+            let height = if index % 3 == 0 { 0.0 } else { up };
+            Entry { position: Vec3::new(across.x, height, (8.0 * across.y).floor()), index, tag: index % 5 }
+        };
+        (0..count).map(entry).collect()
+    }
+
+    #[test]
+    fn a_search_finds_just_what_is_near_in_trees_of_any_size() {
+        let mut stream = Stream::new(6, 0, 0);
+        for count in (0..70).chain([1000, 20_000]) {
+            let entries = entries(count);
+            let tree = Tree::new(entries.clone());
+            for bound in [0.01, 0.3, f32::INFINITY] {
+                let at = Vec3A::new(stream.uniform(), stream.uniform(), 8.0 * stream.uniform());
+                let mut found = Vec::new();
+                tree.search(at, bound, |point, bound| {
+                    found.push((tree.index(point.slot), point.tag));
+                    bound
+                });
+                found.sort_unstable();
+                let near = entries.iter().filter(|entry| Vec3A::from(entry.position).distance_squared(at) < bound);
+                assert_eq!(found, near.map(|entry| (entry.index, entry.tag)).collect::<Vec<_>>(), "{count} {bound}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_bound_that_shrinks_leaves_the_nearest() {
+        let entries = entries(5000);
+        let tree = Tree::new(entries.clone());
+        for at in [Vec3A::new(0.5, 0.0, 3.0), Vec3A::new(-1.0, 0.5, 4.5)] {
+            let (mut nearest, mut looked_at) = (None, 0);
+            tree.search(at, f32::INFINITY, |point, _| {
+                looked_at += 1;
+                nearest = Some(tree.index(point.slot));
+                point.square_distance
+            });
+            let distance = |index: u32| Vec3A::from(entries[index as usize].position).distance_squared(at);
+            let least = entries.iter().map(|entry| distance(entry.index)).fold(f32::INFINITY, f32::min);
+            assert_eq!(nearest.map(distance), Some(least));
+            assert!(looked_at < 100, "{looked_at} points were nearer than those before them");
+        }
+    }
+
+    #[test]
+    fn splits_halve_their_cells_and_hold_the_points_apart() {
+        let tree = Tree::new(entries(10_000));
+        let splits = tree.splits(4);
+        assert_eq!(splits.iter().map(|split| split.depth).max(), Some(3));
+        assert_eq!(splits.len(), 15);
+        for split in &splits {
+            let axis = split.axis as usize;
+            assert!(split.min[axis] <= split.at && split.at <= split.max[axis], "{split:?}");
+        }
+        assert!(Tree::default().splits(4).is_empty());
+    }
+
+    #[test]
+    fn the_first_part_is_full() {
+        let parts: Vec<u32> = (2..=9).map(first_part).collect();
+        assert_eq!(parts, [1, 2, 2, 3, 4, 4, 4, 5]);
     }
 }

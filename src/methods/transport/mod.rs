@@ -81,8 +81,9 @@ impl Transport {
 
     /// What a surface does with light that arrives from, or leaves to, this unit direction, which points away from it.
     pub fn bsdf(&self, surface: &Surface, towards: Vec3A, media: &Media) -> Bsdf {
-        let index = media.index_across(surface, &self.world.scene.materials);
-        Bsdf::new(&self.material(surface).lobes(), surface, towards, index)
+        let lobes = self.material(surface).lobes();
+        let index = if lobes.glass > 0.0 { media.index_across(surface, &self.world.scene.materials) } else { 1.0 };
+        Bsdf::new(&lobes, surface, towards, index)
     }
 
     /// The media behind a surface, for light that goes through it.
