@@ -3,7 +3,9 @@
 mod checking;
 mod form_factors;
 mod inspecting;
+mod photons;
 mod probing;
+mod rays;
 mod refusing;
 mod rendering;
 mod solving;

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use tempfile::TempDir;
 
 /// Whether there is an adapter; with `REQUIRE_GPU=1` there must be one.
-fn can_draw() -> bool {
+pub fn can_draw() -> bool {
     match Gpu::new(&AdapterChoice::System) {
         Ok(_) => true,
         Err(error) if std::env::var("REQUIRE_GPU").is_ok_and(|value| value == "1") => panic!("{error}"),
@@ -18,8 +18,16 @@ fn can_draw() -> bool {
     }
 }
 
+/// What a PNG says of itself.
+pub fn texts(folder: &TempDir, name: &str) -> BTreeMap<String, String> {
+    let file = std::fs::File::open(folder.path().join(name)).expect("a file");
+    let reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().expect("a picture");
+    let chunks = &reader.info().uncompressed_latin1_text;
+    chunks.iter().map(|chunk| (chunk.keyword.clone(), chunk.text.clone())).collect()
+}
+
 /// Every pixel of an EXR file.
-fn radiances(folder: &TempDir, name: &str) -> Vec<[f32; 4]> {
+pub fn radiances(folder: &TempDir, name: &str) -> Vec<[f32; 4]> {
     let image = ImageReader::open(folder.path().join(name)).expect("a file").decode().expect("a picture");
     image.into_rgba32f().pixels().map(|pixel| pixel.0).collect()
 }
@@ -127,7 +135,7 @@ fn a_picture_replaces_one_of_the_same_name_only_when_it_is_whole() {
     assert_eq!(files(folder.path()), ["box.png"]);
 }
 
-fn pixels(folder: &TempDir, name: &str) -> image::RgbaImage {
+pub fn pixels(folder: &TempDir, name: &str) -> image::RgbaImage {
     let image = ImageReader::open(folder.path().join(name)).expect("a file").decode().expect("a picture");
     image.into_rgba8()
 }
