@@ -10,8 +10,10 @@ use std::sync::Arc;
 
 /// A ray meets at most this many specular surfaces.
 const MAX_EVENTS: usize = 30;
-/// From here on rays that carry little are ended at random.
-const FREE_EVENTS: usize = 4;
+/// At so many surfaces all specular lobes are followed: of glass, what it reflects and what it lets through.
+const SPLIT_EVENTS: usize = 2;
+/// Rays that carry less than this share of the light to the eye are ended at random.
+const FAINT: f32 = 0.25;
 
 /// A place that is seen, and how it is.
 pub struct Seen<'a> {
@@ -45,45 +47,79 @@ pub struct Sight {
     pub rays: u64,
 }
 
+/// A ray on its way from the eye.
+#[derive(Clone, Copy)]
+struct Leg {
+    ray: Ray,
+    /// Share of the light that arrives along it which reaches the eye: as flux, and what radiance is to be multiplied by
+    /// besides, in glass.
+    throughput: Rgb,
+    narrowing: f32,
+    media: Media,
+    /// Events from the eye on.
+    to_eye: Path,
+}
+
 impl EyePath {
     /// Radiance that arrives along a ray: what surfaces emit and what their diffuse lobes send on, directly and over specular
-    /// lobes, one of which is followed at random at each surface.
-    pub fn look(&self, mut ray: Ray, draws: &mut Draws, scratch: &mut Scratch) -> Sight {
+    /// lobes. At the first surfaces all of these are followed, later on one of them.
+    pub fn look(&self, ray: Ray, draws: &mut Draws, scratch: &mut Scratch) -> Sight {
+        let leg = Leg { ray, throughput: Rgb::ONE, narrowing: 1.0, media: Media::default(), to_eye: Path::LIGHT };
         let mut sight = Sight::default();
-        let (mut throughput, mut media, mut to_eye) = (Rgb::ONE, Media::default(), Path::LIGHT);
-        for event in 0..MAX_EVENTS {
-            sight.rays += 1;
-            let Some(surface) = self.transport.meet(&ray) else { break };
-            sight.is_surface = true;
-            let emitted = self.transport.emission(&surface);
-            if emitted != Rgb::ZERO && self.matcher.passes(Path::LIGHT, None, to_eye) {
-                sight.radiance += throughput * emitted;
-            }
-            let bsdf = self.transport.bsdf(&surface, -ray.direction, &media);
-            if bsdf.diffuse() != Rgb::ZERO {
-                let seen = Seen { surface: &surface, bsdf: &bsdf.only(Scattering::Diffuse), to_eye };
-                let (leaving, rays) = self.light.leaving(&seen, draws, scratch);
-                sight.radiance += throughput * leaving;
-                sight.rays += rays;
-            }
-            if !bsdf.is_specular() {
-                break;
-            }
-            let Some(sample) = bsdf.only(Scattering::Specular).sample(throughput, &mut draws.stream) else { break };
-            throughput *= sample.weight * sample.narrowing;
-            if event >= FREE_EVENTS {
-                let survival = throughput.max_element().min(1.0);
-                if draws.stream.uniform() >= survival {
-                    break;
-                }
-                throughput /= survival;
-            }
-            if sample.crosses {
-                media = self.transport.media_behind(&surface, media);
-            }
-            to_eye = to_eye.then(Scattering::Specular);
-            ray = self.transport.leave(&surface, sample.direction);
-        }
+        self.follow(&leg, &mut sight, draws, scratch);
         sight
+    }
+
+    fn follow(&self, leg: &Leg, sight: &mut Sight, draws: &mut Draws, scratch: &mut Scratch) {
+        sight.rays += 1;
+        let Some(surface) = self.transport.meet(&leg.ray) else { return };
+        sight.is_surface = true;
+        let emitted = self.transport.emission(&surface);
+        if emitted != Rgb::ZERO && self.matcher.passes(Path::LIGHT, None, leg.to_eye) {
+            sight.radiance += leg.throughput * leg.narrowing * emitted;
+        }
+        let bsdf = self.transport.bsdf(&surface, -leg.ray.direction, &leg.media);
+        if bsdf.diffuse() != Rgb::ZERO {
+            let seen = Seen { surface: &surface, bsdf: &bsdf.only(Scattering::Diffuse), to_eye: leg.to_eye };
+            let (leaving, rays) = self.light.leaving(&seen, draws, scratch);
+            sight.radiance += leg.throughput * leg.narrowing * leaving;
+            sight.rays += rays;
+        }
+        if !bsdf.is_specular() || leg.to_eye.len() == MAX_EVENTS {
+            return;
+        }
+        if leg.to_eye.len() < SPLIT_EVENTS {
+            for lobe in bsdf.specular_lobes() {
+                self.go_on(leg, &surface, &lobe, sight, draws, scratch);
+            }
+        } else {
+            self.go_on(leg, &surface, &bsdf.only(Scattering::Specular), sight, draws, scratch);
+        }
+    }
+
+    /// Follows a lobe, or one of several. What carries little is ended at random.
+    fn go_on(
+        &self,
+        leg: &Leg,
+        surface: &Surface,
+        lobe: &Bsdf,
+        sight: &mut Sight,
+        draws: &mut Draws,
+        scratch: &mut Scratch,
+    ) {
+        let Some(sample) = lobe.sample(leg.throughput, &mut draws.stream) else { return };
+        let throughput = leg.throughput * sample.weight;
+        let survival = (throughput.max_element() / FAINT).min(1.0);
+        if draws.stream.uniform() >= survival {
+            return;
+        }
+        let next = Leg {
+            ray: self.transport.leave(surface, sample.direction),
+            throughput: throughput / survival,
+            narrowing: leg.narrowing * sample.narrowing,
+            media: if sample.crosses { self.transport.media_behind(surface, leg.media) } else { leg.media },
+            to_eye: leg.to_eye.then(Scattering::Specular),
+        };
+        self.follow(&next, sight, draws, scratch);
     }
 }

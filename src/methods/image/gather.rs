@@ -6,12 +6,14 @@ use super::draws::{Draws, Use};
 use super::eye_path::{DiffuseLight, Seen};
 use super::lights::direct_light;
 use super::photon_light::PhotonLight;
+use crate::math::random::Stream;
 use crate::math::rgb::Rgb;
 use crate::math::warp::{cosine_hemisphere, frame};
 use crate::methods::photon_map::Scratch;
 use crate::methods::transport::{Bsdf, Media, Surface, Transport};
 use crate::solution::{Path, PathMatcher, Scattering};
 use crate::tracer::Ray;
+use glam::Vec2;
 use std::f32::consts::PI;
 use std::sync::Arc;
 
@@ -37,12 +39,17 @@ impl DiffuseLight for GatherLight {
             (radiance, rays) = direct_light(&self.transport, seen, self.light_rays, draws);
         }
         radiance += self.caustics.leaving(seen, draws, scratch).0;
-        // Well spread rays where the eye looks directly; behind a mirror one is enough.
-        let count = if seen.to_eye.is_empty() { self.gather_rays } else { 1 };
+        // Behind a mirror a quarter is enough, since less is seen there, and behind two a quarter of these.
+        let count = (self.gather_rays >> (2 * seen.to_eye.len()).min(31)).max(1);
         let around = frame(seen.surface.normal);
         let mut sum = Rgb::ZERO;
         for i in 0..count {
-            let at = if count > 1 { draws.spread(Use::Gather, i, count) } else { draws.stream.uniform2() };
+            // Only what the eye sees directly is the same in every sample of a pixel.
+            let at = if seen.to_eye.is_empty() {
+                draws.spread(Use::Gather, i, count)
+            } else {
+                stratified(i, count, &mut draws.stream)
+            };
             let direction = around * cosine_hemisphere(at);
             if direction.dot(seen.surface.facing) > 0.0 {
                 let ray = self.transport.leave(seen.surface, direction);
@@ -54,6 +61,12 @@ impl DiffuseLight for GatherLight {
         }
         (radiance + seen.bsdf.diffuse() * sum / count.max(1) as f32, rays)
     }
+}
+
+/// Point `i` of `count` in [0, 1)², each in a row of its own.
+fn stratified(i: u32, count: u32, stream: &mut Stream) -> Vec2 {
+    let at = stream.uniform2();
+    Vec2::new((i as f32 + at.x) / count as f32, at.y)
 }
 
 impl GatherLight {

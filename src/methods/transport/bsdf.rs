@@ -118,6 +118,27 @@ impl Bsdf {
         }
     }
 
+    /// Each of its specular lobes alone.
+    pub fn specular_lobes(&self) -> impl Iterator<Item = Self> {
+        let none = Self {
+            diffuse: Rgb::ZERO,
+            glossy: Rgb::ZERO,
+            mirror: Rgb::ZERO,
+            reflected: 0.0,
+            refracted: Rgb::ZERO,
+            straight: Rgb::ZERO,
+            ..*self
+        };
+        let lobes = [
+            Self { glossy: self.glossy, ..none },
+            Self { mirror: self.mirror, ..none },
+            Self { reflected: self.reflected, ..none },
+            Self { refracted: self.refracted, ..none },
+            Self { straight: self.straight, ..none },
+        ];
+        lobes.into_iter().filter(Self::is_specular)
+    }
+
     /// The largest share that any channel keeps, in [0, 1]: chance of survival of light that is the same in all channels.
     /// Of the glossy lobe this is a bound.
     pub fn albedo(&self) -> Rgb {
