@@ -64,14 +64,14 @@ fn only_the_measured_walls_are_out_of_plane() {
 }
 
 #[test]
-fn balls_rings_and_round_blocks_are_smooth_and_the_rest_is_flat() {
-    // Caps and the ring's top are flat.
+fn balls_rings_and_rods_are_smooth_and_the_rest_is_flat() {
+    // The ends of the rod and the top of the ring are flat.
     for (name, object, smooth, flat) in [
         ("cornell-spheres", "mirror_ball", 2048, 0),
         ("cornell-spheres", "glass_ball", 2048, 0),
         ("cornell-spheres", "floor", 0, 1),
         ("caustic-ring", "ring", 256, 128),
-        ("glass-block", "round_block", 96, 192),
+        ("glass-block", "rod", 96, 192),
         ("glass-block", "prism", 0, 5),
         ("glossy-floor", "yellow_ball", 2048, 0),
     ] {
@@ -87,12 +87,10 @@ fn balls_rings_and_round_blocks_are_smooth_and_the_rest_is_flat() {
 fn bodies_of_glass_are_closed_and_look_outwards() {
     let ball = 4.0 / 3.0 * std::f64::consts::PI * 0.1_f64.powi(3);
     let prism = 3.0_f64.sqrt() / 4.0 * 0.14 * 0.14 * 0.16;
-    let cylinder = std::f64::consts::PI * 0.06 * 0.06 * 0.16;
-    for (name, object, volume) in [
-        ("cornell-spheres", "glass_ball", ball),
-        ("glass-block", "prism", prism),
-        ("glass-block", "round_block", cylinder),
-    ] {
+    let rod = std::f64::consts::PI * 0.06 * 0.06 * 0.26;
+    for (name, object, volume) in
+        [("cornell-spheres", "glass_ball", ball), ("glass-block", "prism", prism), ("glass-block", "rod", rod)]
+    {
         let scene = open(name);
         let (closure, inside) = closure_and_volume(&scene, &[object]);
         assert!(closure.length() < 1e-7, "{name}: {object} is open by {closure}");
