@@ -54,9 +54,48 @@ fn every_builtin_opens_without_a_warning_and_emits_light() {
 fn only_the_measured_walls_are_out_of_plane() {
     for builtin in BUILTINS {
         let scene = open(builtin.name);
-        let kinds: Vec<_> = scene.findings.iter().map(|finding| finding.kind).collect();
-        let expected: &[FindingKind] = if builtin.name.ends_with("-box") { &[FindingKind::NonPlanarFace] } else { &[] };
+        // That radiosity does not see what a material reflects as a mirror is nothing wrong with the scene.
+        let kinds = scene.findings.iter().map(|finding| finding.kind);
+        let kinds: Vec<_> = kinds.filter(|kind| *kind != FindingKind::SpecularIgnored).collect();
+        let is_measured = builtin.name.ends_with("-box") || builtin.name == "cornell-spheres";
+        let expected: &[FindingKind] = if is_measured { &[FindingKind::NonPlanarFace] } else { &[] };
         assert_eq!(kinds, expected, "{}: {:#?}", builtin.name, scene.findings);
+    }
+}
+
+#[test]
+fn balls_rings_and_rods_are_smooth_and_the_rest_is_flat() {
+    // The ends of the rod and the top of the ring are flat.
+    for (name, object, smooth, flat) in [
+        ("cornell-spheres", "mirror_ball", 2048, 0),
+        ("cornell-spheres", "glass_ball", 2048, 0),
+        ("cornell-spheres", "floor", 0, 1),
+        ("caustic-ring", "ring", 256, 128),
+        ("glass-block", "rod", 96, 192),
+        ("glass-block", "prism", 0, 5),
+        ("glossy-floor", "yellow_ball", 2048, 0),
+    ] {
+        let scene = open(name);
+        let faces = scene.polygons.iter().filter(|face| scene.objects[face.object as usize] == object);
+        let (round, plane): (Vec<&Polygon>, Vec<&Polygon>) = faces.partition(|face| face.normals().is_some());
+        assert_eq!((round.len(), plane.len()), (smooth, flat), "{name}: {object}");
+    }
+}
+
+/// The balls are as large as polyhedra inside spheres can be: 64 × 32 faces lack 0.5 %.
+#[test]
+fn bodies_of_glass_are_closed_and_look_outwards() {
+    let ball = 4.0 / 3.0 * std::f64::consts::PI * 0.1_f64.powi(3);
+    let prism = 3.0_f64.sqrt() / 4.0 * 0.14 * 0.14 * 0.16;
+    let rod = std::f64::consts::PI * 0.06 * 0.06 * 0.26;
+    for (name, object, volume) in
+        [("cornell-spheres", "glass_ball", ball), ("glass-block", "prism", prism), ("glass-block", "rod", rod)]
+    {
+        let scene = open(name);
+        let (closure, inside) = closure_and_volume(&scene, &[object]);
+        assert!(closure.length() < 1e-7, "{name}: {object} is open by {closure}");
+        assert!(inside < volume * (1.0 + 1e-4) && inside > 0.99 * volume, "{name}: {object} has {inside} m³");
+        assert!(scene.materials[polygon_of(&scene, object).material as usize].is_glass());
     }
 }
 
@@ -119,6 +158,7 @@ fn shells_are_closed_edge_to_edge() {
         // Two rooms of 4 m × 4 m × 2.6 m and a doorway of 0.2 m × 0.95 m × 2.05 m.
         ("two-rooms", vec!["lamp_room", "doorway", "far_room"], -(2.0 * 4.0 * 4.0 * 2.6 + 0.2 * 0.95 * 2.05)),
         ("gallery", GALLERY_SHELL.to_vec(), gallery_volume()),
+        ("glossy-floor", vec!["floor", "ceiling", "walls"], -4.0 * 4.0 * 2.6),
     ];
     for (name, objects, volume) in shells {
         let scene = open(name);

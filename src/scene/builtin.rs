@@ -67,6 +67,49 @@ pub const BUILTINS: &[Builtin] = &[
         obj: include_str!("../../assets/scenes/gallery.obj"),
         mtl: include_str!("../../assets/scenes/gallery.mtl"),
     },
+    Builtin {
+        name: "cornell-spheres",
+        description: "the measured Cornell room with a mirror ball and a glass ball, which gathers light on the floor",
+        viewpoint: Some(CORNELL_CAMERA),
+        obj: include_str!("../../assets/scenes/cornell-spheres.obj"),
+        mtl: include_str!("../../assets/scenes/cornell-spheres.mtl"),
+    },
+    Builtin {
+        name: "caustic-ring",
+        description: "a ring of brass on a table that reflects the light of a small lamp into a cardioid",
+        viewpoint: Some(Viewpoint {
+            eye: Vec3::new(0.02, 0.5, 0.22),
+            target: Vec3::new(0.0, 0.02, 0.0),
+            up: Vec3::Y,
+            vertical_fov: 34.0,
+        }),
+        obj: include_str!("../../assets/scenes/caustic-ring.obj"),
+        mtl: include_str!("../../assets/scenes/caustic-ring.mtl"),
+    },
+    Builtin {
+        name: "glass-block",
+        description: "a rod and a prism of glass that draw the light of a small lamp into their shadows and beside them",
+        viewpoint: Some(Viewpoint {
+            eye: Vec3::new(0.35, 0.62, 0.72),
+            target: Vec3::new(0.1, 0.0, 0.0),
+            up: Vec3::Y,
+            vertical_fov: 40.0,
+        }),
+        obj: include_str!("../../assets/scenes/glass-block.obj"),
+        mtl: include_str!("../../assets/scenes/glass-block.mtl"),
+    },
+    Builtin {
+        name: "glossy-floor",
+        description: "a room with a glossy floor, in which a red block, a blue column and a yellow ball are reflected",
+        viewpoint: Some(Viewpoint {
+            eye: Vec3::new(0.0, 1.25, -0.15),
+            target: Vec3::new(0.0, 0.75, -2.6),
+            up: Vec3::Y,
+            vertical_fov: 62.0,
+        }),
+        obj: include_str!("../../assets/scenes/glossy-floor.obj"),
+        mtl: include_str!("../../assets/scenes/glossy-floor.mtl"),
+    },
 ];
 
 /// The measured camera: 35 mm focal length and a film of 25 mm, so a vertical angle of 2 atan(12.5 / 35).

@@ -72,6 +72,8 @@ pub enum FindingKind {
     SpecularIgnored,
     SpecularScaled,
     FilterInverted,
+    GlassTurned,
+    GlassOpen,
     NoEmitter,
     EmitterTurned,
     EmitterMoved,

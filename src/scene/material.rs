@@ -90,6 +90,12 @@ impl Material {
         self.lobes().glass > 0.0
     }
 
+    /// The same glass without a thickness: what its surface would let into it passes straight.
+    pub fn as_sheet(&self) -> Self {
+        let opacity = 1.0 - self.lobes().glass;
+        Self { opacity, specular: Rgb::ZERO, illumination_model: None, ..self.clone() }
+    }
+
     /// The factor, at most 1, on `Ks` that leaves it what `Kd` does not reflect.
     pub fn specular_scale(&self) -> f32 {
         match self.specular_kind() {

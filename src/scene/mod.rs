@@ -2,6 +2,7 @@
 
 mod builtin;
 mod doctor;
+mod glass;
 mod light;
 mod lines;
 mod material;

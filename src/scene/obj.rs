@@ -1,6 +1,7 @@
 //! From the text of an OBJ file and its material libraries to a scene.
 
 use super::doctor::{Finding, FindingKind};
+use super::glass;
 use super::lines::{self, CheckedFace, CheckedObj};
 use super::material::Material;
 use super::mtl::Library;
@@ -288,6 +289,8 @@ impl Assembler {
         let name = name.to_owned();
         let mut scene =
             Scene { name, source, positions, normals, polygons, materials, objects, viewpoint: None, findings };
+        let mended = glass::mend(&mut scene);
+        scene.findings.extend(mended);
         if !scene.has_emitter() {
             scene.findings.push(Finding::warning(
                 FindingKind::NoEmitter,

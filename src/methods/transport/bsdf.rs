@@ -139,8 +139,8 @@ impl Bsdf {
         lobes.into_iter().filter(Self::is_specular)
     }
 
-    /// The largest share that any channel keeps, in [0, 1]: chance of survival of light that is the same in all channels.
-    /// Of the glossy lobe this is a bound.
+    /// Share of the light that goes on, per channel, in [0, 1]. Of the glossy lobe this is what it keeps of light along the
+    /// normal, and never less than what it keeps of other light.
     pub fn albedo(&self) -> Rgb {
         LOBES.iter().map(|&lobe| self.share(lobe)).sum()
     }

@@ -34,6 +34,8 @@ impl Media {
         } else if let Some(place) = self.bodies[..count].iter().rposition(|&body| body == surface.material) {
             media.bodies.copy_within(place + 1.., place);
             media.count -= 1;
+            // What is not in use is always the same, so that equal media are equal.
+            media.bodies[count - 1] = 0;
         }
         media
     }

@@ -7,7 +7,9 @@ use std::f32::consts::TAU;
 /// f · (2π) / (n + 2): cosⁿ of the angle to the mirror direction. With the cosine of the incoming light and below the
 /// horizon cut off, the lobe's albedo is at most 1, and 1 for light along the normal as n grows.
 pub fn value(mirror: Vec3A, direction: Vec3A, exponent: f32) -> f32 {
-    (exponent + 2.0) / TAU * mirror.dot(direction).max(0.0).powf(exponent)
+    let cosine = mirror.dot(direction);
+    // Not a matter of course where the exponent is 0.
+    if cosine > 0.0 { (exponent + 2.0) / TAU * cosine.powf(exponent) } else { 0.0 }
 }
 
 /// A direction round the mirror direction with a density in proportion to cosⁿ; it may lie below the horizon.
