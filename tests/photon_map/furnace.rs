@@ -17,7 +17,7 @@ use std::sync::Arc;
 fn places(transport: &Transport, count: u64) -> Vec<Surface> {
     let mut stream = Stream::new(3, 0, 0);
     let mut place = |index: u64| {
-        let at_edges = if index % 4 == 0 { 1e-4 } else { 1.0 };
+        let at_edges = if index.is_multiple_of(4) { 1e-4 } else { 1.0 };
         let uv = stream.uniform2() * at_edges;
         let wall = index % 6;
         let axis = (wall / 2) as usize;
@@ -25,7 +25,7 @@ fn places(transport: &Transport, count: u64) -> Vec<Surface> {
         place[(axis + 1) % 3] = uv.y;
         place[axis] = (wall % 2) as f32;
         let mut normal = [0.0; 3];
-        normal[axis] = if wall % 2 == 0 { 1.0 } else { -1.0 };
+        normal[axis] = if wall.is_multiple_of(2) { 1.0 } else { -1.0 };
         // Just off the walls: on an edge there is no saying which wall a ray meets.
         let place = Vec3A::from_array(place).clamp(Vec3A::splat(1e-5), Vec3A::splat(1.0 - 1e-5));
         at(transport, place, Vec3A::from_array(normal))
