@@ -24,7 +24,11 @@ const STORED: usize = 1_000_000;
 const QUERIES: usize = 4096;
 
 fn cornell_box() -> Arc<Transport> {
-    let scene = Scene::open("cornell-box").expect("a built-in scene");
+    transport("cornell-box")
+}
+
+fn transport(name: &str) -> Arc<Transport> {
+    let scene = Scene::open(name).expect("a built-in scene");
     let world = World::build(scene, &MeshSettings::default(), &Cancel::default()).expect("a world");
     Arc::new(Transport::new(Arc::new(world)))
 }
@@ -129,6 +133,11 @@ fn searches(criterion: &mut Criterion) {
 }
 
 fn estimates(criterion: &mut Criterion) {
+    let gallery = transport("gallery");
+    let start = Instant::now();
+    // Before the first photon there is only what surfaces belong together.
+    black_box(PhotonMapping::new(gallery, &Settings::default()).maps());
+    println!("estimate: which surfaces of the gallery belong together took {:.1?}", start.elapsed());
     let transport = cornell_box();
     let places = places(&transport);
     let mut group = criterion.benchmark_group("estimate");

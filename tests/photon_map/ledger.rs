@@ -79,6 +79,13 @@ fn caustics_are_either_in_their_own_map_or_in_the_global_one() {
     assert_eq!(own.counters.by_path, shared.counters.by_path);
     assert_eq!(caustics(&own), own.counters.caustic_stored);
     assert_eq!(caustics(&shared), shared.counters.stored - own.counters.stored);
+    // Both carry the same light, to the noise of so many landings.
+    let flux = |solution: &PhotonSolution| {
+        let caustics = solution.photons.iter().filter(|photon| photon.path.is_caustic());
+        caustics.map(|photon| f64::from(photon.flux.x)).sum::<f64>()
+    };
+    let noise = (1.0 / caustics(&own) as f64 + 1.0 / caustics(&shared) as f64).sqrt();
+    assert!((flux(&own) / flux(&shared) - 1.0).abs() < 4.0 * noise, "{} {}", flux(&own), flux(&shared));
     assert!(shared.counters.caustic_emitted == 0 && own.counters.caustic_emitted == 30_000);
 }
 

@@ -6,10 +6,12 @@ use super::horizon::Horizon;
 use super::nearest::Nearest;
 use super::trace::is_caustic;
 use super::tree::{Entry, Found, Tree};
+use crate::math::rgb::Rgb;
 use crate::methods::Kernel;
 use crate::methods::transport::{Surface, Transport};
 use crate::solution::{Gathered, Path, Photon, Split};
 use glam::Vec3A;
+use rayon::prelude::*;
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -88,10 +90,33 @@ pub(super) struct Gathering {
     pub max_radius: f32,
 }
 
-/// The photons of a map, and what their flux is to be multiplied by while some of them are still to come.
+/// The photons of a map. What an estimate needs of them is in the order of the tree, so that neighbours are found together.
 pub(super) struct Map {
     tree: Tree,
+    /// By slot, W.
+    flux: Vec<Rgb>,
+    /// By slot: an index into [`Trees::paths`].
+    path: Vec<u32>,
+    /// What flux is to be multiplied by while some photons are still to come.
     scale: f32,
+}
+
+impl Map {
+    /// Of photons with these indices; `path_of` tells the path of each photon.
+    fn new(photons: &[Photon], indices: &[u32], path_of: &[u32], ground: &Ground, scale: f32) -> Self {
+        let entry = |&index: &u32| {
+            let photon = &photons[index as usize];
+            let tag = ground.group(photon.side) << KIND_BITS | Kind::of(photon.path) as u32;
+            Entry { position: photon.position, index, tag }
+        };
+        let tree = Tree::new(indices.par_iter().map(entry).collect());
+        Self {
+            flux: tree.indices().par_iter().map(|&index| photons[index as usize].flux).collect(),
+            path: tree.indices().par_iter().map(|&index| path_of[index as usize]).collect(),
+            tree,
+            scale,
+        }
+    }
 }
 
 /// The trees of both maps.
@@ -103,9 +128,9 @@ pub(super) struct Trees {
     caustic: Map,
     /// The different paths of photons.
     paths: Vec<Path>,
-    /// Which of them each photon took.
-    path_of: Vec<u32>,
     has_caustic_map: bool,
+    /// Of the global map.
+    splits: Arc<Vec<Split>>,
     is_complete: bool,
 }
 
@@ -122,25 +147,20 @@ pub(super) struct Stock {
 impl Trees {
     pub fn new(transport: Arc<Transport>, ground: Arc<Ground>, stock: Stock) -> Self {
         let Stock { photons, has_caustic_map, scales, is_complete } = stock;
-        let entry = |index: usize| {
-            let photon = &photons[index];
-            let tag = ground.group(photon.side) << KIND_BITS | Kind::of(photon.path) as u32;
-            Entry { position: photon.position, index: index as u32, tag }
-        };
-        let belongs_to_caustics = |index: &usize| has_caustic_map && is_caustic(photons[*index].path);
-        let (caustic, global): (Vec<usize>, Vec<usize>) = (0..photons.len()).partition(belongs_to_caustics);
-        let map = |indices: Vec<usize>, scale| Map { tree: Tree::new(indices.into_iter().map(entry).collect()), scale };
-        let (global, caustic) = (map(global, scales[0]), map(caustic, scales[1]));
-        let mut paths = Vec::new();
-        let mut places = HashMap::new();
+        let (mut paths, mut places) = (Vec::new(), HashMap::new());
         let path_of = photons.iter().map(|photon| {
             *places.entry(photon.path).or_insert_with(|| {
                 paths.push(photon.path);
                 paths.len() as u32 - 1
             })
         });
-        let path_of = path_of.collect();
-        Self { transport, ground, photons, global, caustic, paths, path_of, has_caustic_map, is_complete }
+        let path_of: Vec<u32> = path_of.collect();
+        let belongs_to_caustics = |index: &u32| has_caustic_map && is_caustic(photons[*index as usize].path);
+        let (caustic, global): (Vec<u32>, Vec<u32>) = (0..photons.len() as u32).partition(belongs_to_caustics);
+        let map = |indices: &[u32], scale| Map::new(&photons, indices, &path_of, &ground, scale);
+        let (global, caustic) = (map(&global, scales[0]), map(&caustic, scales[1]));
+        let splits = Arc::new(global.tree.splits(SPLIT_DEPTH + 1));
+        Self { transport, ground, photons, global, caustic, paths, has_caustic_map, splits, is_complete }
     }
 
     /// Where the surface ends within `radius`, m.
@@ -178,8 +198,8 @@ impl PhotonMaps {
     }
 
     /// How the tree of the global map divides it, down to a depth that can be drawn.
-    pub fn splits(&self) -> Vec<Split> {
-        self.trees.global.tree.splits(SPLIT_DEPTH + 1)
+    pub fn splits(&self) -> &Arc<Vec<Split>> {
+        &self.trees.splits
     }
 
     /// The photons whose path passes. It is good for these maps only.
@@ -189,7 +209,7 @@ impl PhotonMaps {
 
     /// What the flux of a photon is to be multiplied by while some are still to come: those that are there stand for all.
     pub fn scale(&self, photon: &Photon) -> f32 {
-        let is_caustic = self.trees.has_caustic_map && photon.path.is_caustic();
+        let is_caustic = self.trees.has_caustic_map && is_caustic(photon.path);
         if is_caustic { self.trees.caustic.scale } else { self.trees.global.scale }
     }
 
@@ -207,7 +227,7 @@ impl PhotonMaps {
         let mut sum = Sum::default();
         for map in [&self.trees.global, &self.trees.caustic] {
             let mut own = Vec::new();
-            let part = self.sum(map, at, Which::All, &mut scratch, &mut |photon| own.push(photon));
+            let part = self.sum(map, at, Which::All, &mut scratch, &mut |slot| own.push(map.tree.index(slot)));
             own.sort_unstable();
             // What is on the rim does not count, but belongs.
             let within = part.radius().powi(2) * (1.0 - 4.0 * f32::EPSILON);
@@ -235,7 +255,7 @@ impl PhotonMaps {
         }
     }
 
-    /// Photons of a map, weighted and summed; each is told to `used`.
+    /// Photons of a map, weighted and summed; the slot of each is told to `used`.
     fn sum(&self, map: &Map, at: &Surface, which: Which, scratch: &mut Scratch, used: &mut impl FnMut(u32)) -> Sum {
         if map.tree.is_empty() {
             return Sum::default();
@@ -245,9 +265,8 @@ impl PhotonMaps {
         let trees = &*self.trees;
         let ground = &*trees.ground;
         let (group, kinds) = (ground.group(at.side()), which.kinds());
-        let photon = |found: &Found| &trees.photons[map.tree.index(found.slot) as usize];
         let passes = |found: &Found| match which {
-            Which::Filtered(filter) => filter.passes[trees.path_of[map.tree.index(found.slot) as usize] as usize],
+            Which::Filtered(filter) => filter.passes[map.path[found.slot as usize] as usize],
             _ => true,
         };
         trees.look_round(at, max_radius, horizon);
@@ -257,8 +276,8 @@ impl PhotonMaps {
             found.tag >> KIND_BITS == group
                 && kinds >> (found.tag & 0b11) & 1 == 1
                 && passes(found)
-                && (is_flat || bends_little(ground, at, photon(found)))
-                && (is_open || horizon.sees(photon(found).position.into()))
+                && (is_flat || bends_little(ground, at, &trees.photons[map.tree.index(found.slot) as usize]))
+                && (is_open || horizon.sees(map.tree.position(found.slot)))
         };
         nearest.begin(limit.unwrap_or(usize::MAX));
         map.tree.search(at.point, max_radius * max_radius, |found, bound| {
@@ -272,9 +291,8 @@ impl PhotonMaps {
         let points = nearest.points();
         let within = points.len() - usize::from(rim.is_some());
         for (square_distance, slot) in points.take(within) {
-            let index = map.tree.index(slot);
-            sum.add(trees.photons[index as usize].flux, square_distance, kernel);
-            used(index);
+            sum.add(map.flux[slot as usize], square_distance, kernel);
+            used(slot);
         }
         sum.scale(map.scale);
         sum

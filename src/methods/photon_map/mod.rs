@@ -160,7 +160,7 @@ impl PhotonMapping {
             elapsed: Duration::ZERO,
             is_complete,
             photons: self.photons.clone(),
-            splits: maps.map(|maps| maps.splits().into()).unwrap_or_default(),
+            splits: maps.map(|maps| maps.splits().clone()).unwrap_or_default(),
             max_radius: self.gathering().max_radius,
             energy: self.tally.energy,
             counters: self.tally.counters(),

@@ -2,7 +2,7 @@
 
 use super::tree::Found;
 
-/// Up to so many found points, the nearest so far. Points are gathered up to twice the number, and then the farther half is
+/// Up to so many found points, the nearest so far. Points are gathered up to half as many again, and then the farther third is
 /// dropped at once: that is less work a point than a heap.
 #[derive(Clone, Debug, Default)]
 pub struct Nearest {
@@ -21,7 +21,7 @@ impl Nearest {
     /// Takes a point in; returns the square distance, m², up to which points are of use.
     pub fn add(&mut self, found: &Found, bound: f32) -> f32 {
         self.keys.push(u64::from(found.square_distance.to_bits()) << 32 | u64::from(found.slot));
-        if self.keys.len() >= self.limit.saturating_mul(2) { self.drop_farther() } else { bound }
+        if self.keys.len() > self.limit.saturating_add(self.limit / 2) { self.drop_farther() } else { bound }
     }
 
     /// Ends the search; returns the square distance of the last of the points, m², if there are `limit` of them. That one

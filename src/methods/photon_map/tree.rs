@@ -6,8 +6,8 @@ use crate::solution::Split;
 use glam::{Vec3, Vec3A};
 use rayon::prelude::*;
 
-/// Photons in a block: two vectors of four, or one of eight.
-const LANES: usize = 8;
+/// Photons in a block: enough that most of a search runs over memory from front to back.
+const LANES: usize = 16;
 /// Below this many photons a part of the tree is built by one thread.
 const ALONE: usize = 1 << 13;
 /// Of blocks that are not full: they match nothing.
@@ -125,6 +125,17 @@ impl Tree {
     /// The photon at a slot.
     pub fn index(&self, slot: u32) -> u32 {
         self.indices[slot as usize]
+    }
+
+    /// The photons in the order of their slots.
+    pub fn indices(&self) -> &[u32] {
+        &self.indices
+    }
+
+    /// Where the photon at a slot is, m.
+    pub fn position(&self, slot: u32) -> Vec3A {
+        let (block, lane) = (&self.blocks[slot as usize / LANES], slot as usize % LANES);
+        Vec3A::new(block.x[lane], block.y[lane], block.z[lane])
     }
 
     /// Calls `visit` with every point that is nearer than the square root of `bound`, m², the near parts of the tree first.
