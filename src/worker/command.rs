@@ -55,6 +55,38 @@ pub enum Subject {
     Camera(CameraView),
 }
 
+/// A way to compute light that goes on by itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LightKind {
+    Radiosity,
+    Photons,
+}
+
+impl LightKind {
+    pub const ALL: [Self; 2] = [Self::Radiosity, Self::Photons];
+}
+
+impl Subject {
+    /// The light that it shows or is read off; `None` where rays from the camera find it themselves.
+    pub fn light(self) -> Option<LightKind> {
+        match self {
+            Self::Radiosity => Some(LightKind::Radiosity),
+            Self::Photons => Some(LightKind::Photons),
+            Self::Camera(view) if view.needs_photons() => Some(LightKind::Photons),
+            Self::Camera(view) if view.needs_radiosity() => Some(LightKind::Radiosity),
+            Self::Camera(_) => None,
+        }
+    }
+
+    /// The picture from a camera that it is, if it is one.
+    pub fn view(self) -> Option<CameraView> {
+        match self {
+            Self::Camera(view) => Some(view),
+            Self::Radiosity | Self::Photons => None,
+        }
+    }
+}
+
 /// A point of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spot {

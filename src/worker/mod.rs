@@ -12,7 +12,7 @@ mod run;
 mod solver;
 
 pub use checks::{CheckReport, Checks};
-pub use command::{Command, Place, Shown, Sight, Spot, Subject};
+pub use command::{Command, LightKind, Place, Shown, Sight, Spot, Subject};
 pub use history::{Curve, CurvePoint};
 pub use run::{Refused, Run};
 
