@@ -263,9 +263,18 @@ fn the_view_bar_changes_the_look() {
         assert_eq!(harness.state().actions, chosen);
         assert_eq!(click(showing(group.first()), group.label()), [], "it is on show");
     }
-    assert_eq!(click(Stage::default(), "Ambient"), [Action::SetLook(Look { ambient: true, ..look })]);
-    assert_eq!(click(Stage::default(), "Wireframe"), [Action::SetLook(Look { wireframe: true, ..look })]);
-    assert_eq!(click(Stage::default(), "Shooter"), [Action::SetLook(Look { show_shooter: false, ..look })]);
+    for (toggle, wanted) in [
+        ("Ambient", Look { ambient: true, ..look }),
+        ("Wireframe", Look { wireframe: true, ..look }),
+        ("Shooter", Look { show_shooter: false, ..look }),
+    ] {
+        let mut harness = Stage::default().small();
+        harness.get_by_label("Show").click();
+        harness.run();
+        harness.get_by_label(toggle).click();
+        harness.run();
+        assert_eq!(harness.state().actions, [Action::SetLook(wanted)]);
+    }
 }
 
 #[test]

@@ -51,7 +51,7 @@ impl Choice for ViewGroup {
         match self {
             Self::Radiosity => "radiosity",
             Self::PhotonMap => "photon-map",
-            Self::Rays => "rays",
+            Self::Rays => "ray-tracing",
         }
     }
 
@@ -59,7 +59,7 @@ impl Choice for ViewGroup {
         match self {
             Self::Radiosity => "Radiosity",
             Self::PhotonMap => "Photon map",
-            Self::Rays => "Rays",
+            Self::Rays => "Ray tracing",
         }
     }
 
