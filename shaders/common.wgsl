@@ -33,8 +33,6 @@ struct Coloured {
 
 // Lines and points are this much nearer than the surface they lie on, as a share of their distance.
 const LIFT = 4e-3;
-// A corner of nothing, if all corners are here: a place beside the picture.
-const HIDDEN = vec4<f32>(2.0, 2.0, 0.0, 1.0);
 
 fn lifted(clip: vec4<f32>) -> vec4<f32> {
     return vec4(clip.xy, clip.z * (1.0 + LIFT), clip.w);

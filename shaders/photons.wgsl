@@ -1,79 +1,45 @@
-// Draws photons as squares of a fixed width on the screen, and ticks that point to where they came from. Vertices are
-// pulled: six for each photon.
-
-// Mirrored by `PhotonRecord` in src/viewport/gpu_types.rs.
-struct Photon {
-    // Unit coordinates.
-    x: f32,
-    y: f32,
-    z: f32,
-    // r g b, linear, a byte each.
-    colour: u32,
-    // Of the side on which it landed, signed bytes; 0 for what is seen from everywhere.
-    normal: u32,
-    // In which it flew, signed bytes.
-    direction: u32,
-}
-
-// Mirrored by `PointsUniform` in src/viewport/gpu_types.rs.
-struct Points {
-    // Unit coordinates.
-    eye: vec3<f32>,
-    // Of a square, pixels.
-    size: f32,
-    // Length of a tick, unit coordinates.
-    tick: f32,
-}
+// Draws the photons that splat.wgsl found, and marks: photons as squares before everything else.
 
 @group(0) @binding(0) var<uniform> frame: Frame;
 @group(0) @binding(1) var<uniform> points: Points;
 @group(0) @binding(2) var<storage, read> photons: array<Photon>;
+// See splat.wgsl.
+@group(0) @binding(3) var<storage, read> shown: array<u32>;
 
-// Of a tick, pixels.
-const TICK_WIDTH = 1.0;
 // Of a tick's colour, so that the photons stand out.
-const TICK_BRIGHTNESS = 0.6;
+const TICK_BRIGHTNESS = 0.5;
 
+// One triangle that covers the whole picture.
 @vertex
-fn vertex(@builtin(vertex_index) index: u32) -> Coloured {
-    let photon = photons[index / 6u];
-    let at = position(photon);
-    if !is_seen(photon, at) {
-        return Coloured(HIDDEN, vec3(0.0));
-    }
-    let center = frame.clip_from_unit * vec4(at, 1.0);
-    let shift = points.size * rectangle_corner(index % 6u) / frame.size * center.w;
-    return Coloured(lifted(vec4(center.xy + shift, center.zw)), colour(photon));
-}
-
-@vertex
-fn vertex_tick(@builtin(vertex_index) index: u32) -> Coloured {
-    let photon = photons[index / 6u];
-    let at = position(photon);
-    if !is_seen(photon, at) {
-        return Coloured(HIDDEN, vec3(0.0));
-    }
-    let came_from = at - points.tick * unpack4x8snorm(photon.direction).xyz;
-    let a = frame.clip_from_unit * vec4(at, 1.0);
-    let b = frame.clip_from_unit * vec4(came_from, 1.0);
-    let corner = line_corner(a, b, index % 6u, TICK_WIDTH, frame.size);
-    return Coloured(lifted(corner), TICK_BRIGHTNESS * colour(photon));
+fn vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4<f32> {
+    return vec4(4.0 * f32(index & 1u) - 1.0, 2.0 * f32(index & 2u) - 1.0, 0.0, 1.0);
 }
 
 @fragment
-fn fragment(corner: Coloured) -> Drawn {
-    return Drawn(vec4(frame.scale * corner.colour, 1.0), vec2(0.0));
+fn fragment(@builtin(position) place: vec4<f32>) -> Drawn {
+    let pixel = vec2<u32>(place.xy);
+    let value = shown[pixel.y * u32(frame.size.x) + pixel.x];
+    if value == 0u {
+        discard;
+    }
+    let brightness = select(TICK_BRIGHTNESS, 1.0, value >= SQUARE);
+    return drawn(brightness * colour(photons[(value & ~SQUARE) - 1u]));
 }
 
-fn position(photon: Photon) -> vec3<f32> {
-    return vec3(photon.x, photon.y, photon.z);
+// Six vertices for each mark.
+@vertex
+fn vertex_mark(@builtin(vertex_index) index: u32) -> Coloured {
+    let mark = photons[index / 6u];
+    let center = frame.clip_from_unit * vec4(position(mark), 1.0);
+    let shift = points.size * rectangle_corner(index % 6u) / frame.size * center.w;
+    return Coloured(vec4(center.xy + shift, center.zw), colour(mark));
 }
 
-fn colour(photon: Photon) -> vec3<f32> {
-    return unpack4x8unorm(photon.colour).rgb;
+@fragment
+fn fragment_mark(corner: Coloured) -> Drawn {
+    return drawn(corner.colour);
 }
 
-// Photons on sides that are turned away would shine through thin walls, which are nearer by less than a square is lifted.
-fn is_seen(photon: Photon, at: vec3<f32>) -> bool {
-    return dot(unpack4x8snorm(photon.normal).xyz, points.eye - at) >= 0.0;
+fn drawn(colour: vec3<f32>) -> Drawn {
+    return Drawn(vec4(frame.scale * colour, 1.0), vec2(0.0));
 }

@@ -36,21 +36,21 @@ fn every_shader_is_valid() {
         if let Err(error) = validator.validate(&module) {
             panic!("{name}: {error:?}");
         }
-        let stages: Vec<_> = module.entry_points.iter().map(|entry| entry.stage).collect();
-        assert!(stages.contains(&naga::ShaderStage::Vertex), "{name} has no vertex stage");
-        assert!(stages.contains(&naga::ShaderStage::Fragment), "{name} has no fragment stage");
+        let has = |stage| module.entry_points.iter().any(|entry| entry.stage == stage);
+        let draws = has(naga::ShaderStage::Vertex) && has(naga::ShaderStage::Fragment);
+        assert!(draws || has(naga::ShaderStage::Compute), "{name} has no entry for a pipeline");
     }
 }
 
 #[test]
-fn every_shader_file_is_a_program_or_the_shared_part() {
+fn every_shader_file_is_a_program_or_a_shared_part() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/shaders");
     let mut files: Vec<String> = std::fs::read_dir(folder)
         .expect("the shaders' folder")
         .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
         .collect();
     let mut expected: Vec<String> = SHADERS.iter().map(|(name, _)| format!("{name}.wgsl")).collect();
-    expected.push("common.wgsl".to_owned());
+    expected.extend(["common.wgsl", "photon.wgsl"].map(str::to_owned));
     files.sort();
     expected.sort();
     assert_eq!(files, expected);
@@ -60,13 +60,13 @@ fn every_shader_file_is_a_program_or_the_shared_part() {
 fn structs_have_the_layout_of_their_shaders() {
     let frame = mirror!(FrameUniform, clip_from_unit, size, scale, line_width);
     assert_eq!(layout(&parse("surface"), "Frame"), frame);
-    for name in ["outline", "photons", "lines"] {
+    for name in ["outline", "splat", "photons", "lines"] {
         assert_eq!(layout(&parse(name), "Frame"), frame);
     }
     assert_eq!(layout(&parse("outline"), "Outline"), mirror!(OutlineUniform, corners, count, width));
     assert_eq!(layout(&parse("present"), "Display"), mirror!(DisplayUniform, outline, exposure, tone, encode, span));
     let photon = mirror!(PhotonRecord, x, y, z, colour, normal, direction);
-    assert_eq!(layout(&parse("photons"), "Photon"), photon);
-    assert_eq!(layout(&parse("photons"), "Points"), mirror!(PointsUniform, eye, size, tick));
+    assert_eq!(layout(&parse("splat"), "Photon"), photon);
+    assert_eq!(layout(&parse("splat"), "Points"), mirror!(PointsUniform, eye, size, tick, count));
     assert_eq!(layout(&parse("lines"), "Line"), mirror!(LineRecord, start, width, end, colour));
 }

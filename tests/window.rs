@@ -3,6 +3,8 @@
 
 #[path = "window/looking.rs"]
 mod looking;
+#[path = "window/photons.rs"]
+mod photons;
 #[path = "window/solvers.rs"]
 mod solvers;
 #[path = "window/stage.rs"]
@@ -13,14 +15,17 @@ use egui::{Key, Modifiers, Rect, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lightwell::app::action::{Action, CameraMove};
+use lightwell::app::keys::of_view;
 use lightwell::app::model::{Dialog, Look, Notice, PathPurpose};
+use lightwell::app::views::ViewGroup;
 use lightwell::app::{Explorer, theme};
 use lightwell::choice::Choice;
 use lightwell::methods::Settings;
 use lightwell::scene::{FindingKind, Severity};
+use lightwell::solution::CameraView;
 use lightwell::viewport::{AdapterChoice, Gpu, View};
 use lightwell::worker::{Command, Phase};
-use stage::{LARGE, SMALL, SMALLEST, Stage, crowds, finding, solution, texts};
+use stage::{LARGE, SMALL, SMALLEST, Stage, crowds, finding, showing, solution, texts};
 use std::time::{Duration, Instant};
 
 /// What one key asks for.
@@ -98,10 +103,28 @@ fn letters_and_digits_do_what_the_help_says() {
     assert_eq!(press(Key::F), [Action::Camera(CameraMove::Fit)]);
     let look = Look::default();
     assert_eq!(press(Key::W), [Action::SetLook(Look { wireframe: true, ..look })]);
-    for (digit, view) in [Key::Num1, Key::Num2, Key::Num3].into_iter().zip(View::ALL.iter().copied()) {
-        assert_eq!(press(digit), [Action::SetLook(Look { view, ..look })]);
+    for &view in View::ALL {
+        let shortcut = of_view(view);
+        let pressed = key(Stage::default(), shortcut.modifiers, shortcut.logical_key);
+        assert_eq!(pressed, [Action::SetLook(Look { view, ..look })]);
     }
     assert_eq!(key(Stage::empty(), Modifiers::COMMAND, Key::O), [Action::BrowseForScene]);
+}
+
+#[test]
+fn a_digit_with_shift_is_told_by_its_place() {
+    let mut harness = Stage::default().small();
+    // As on a keyboard with English letters.
+    harness.event(egui::Event::Key {
+        key: Key::Exclamationmark,
+        physical_key: Some(Key::Num1),
+        pressed: true,
+        repeat: false,
+        modifiers: Modifiers::SHIFT,
+    });
+    harness.run();
+    let view = View::Camera(CameraView::Caustics);
+    assert_eq!(harness.state().actions, [Action::SetLook(Look { view, ..Look::default() })]);
 }
 
 #[test]
@@ -226,14 +249,32 @@ fn without_a_scene_there_is_nothing_to_run_but_something_to_open() {
 fn the_view_bar_changes_the_look() {
     let look = Look::default();
     for &view in View::ALL {
-        let mut harness = Stage::default().small();
+        let mut harness = showing(ViewGroup::of(view).first()).small();
         harness.get_by_role_and_label(Role::Button, view.label()).click();
         harness.run();
         assert_eq!(harness.state().actions, [Action::SetLook(Look { view, ..look })]);
     }
-    assert_eq!(click(Stage::default(), "Ambient"), [Action::SetLook(Look { ambient: true, ..look })]);
-    assert_eq!(click(Stage::default(), "Wireframe"), [Action::SetLook(Look { wireframe: true, ..look })]);
-    assert_eq!(click(Stage::default(), "Shooter"), [Action::SetLook(Look { show_shooter: false, ..look })]);
+    for &group in ViewGroup::ALL {
+        let other = ViewGroup::ALL.iter().find(|other| **other != group).expect("there are several").first();
+        let chosen = [Action::SetLook(Look { view: group.first(), ..look })];
+        let mut harness = showing(other).small();
+        harness.get_by_role_and_label(Role::Button, group.label()).click();
+        harness.run();
+        assert_eq!(harness.state().actions, chosen);
+        assert_eq!(click(showing(group.first()), group.label()), [], "it is on show");
+    }
+    for (toggle, wanted) in [
+        ("Ambient", Look { ambient: true, ..look }),
+        ("Wireframe", Look { wireframe: true, ..look }),
+        ("Shooter", Look { show_shooter: false, ..look }),
+    ] {
+        let mut harness = Stage::default().small();
+        harness.get_by_label("Show").click();
+        harness.run();
+        harness.get_by_label(toggle).click();
+        harness.run();
+        assert_eq!(harness.state().actions, [Action::SetLook(wanted)]);
+    }
 }
 
 #[test]

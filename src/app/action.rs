@@ -24,8 +24,13 @@ pub enum Action {
     ApplySettings(Settings),
     /// Moves the camera.
     Camera(CameraMove),
-    /// Picks the patch at this point of the viewport, in shares of its width and height from the top left.
+    /// Picks what is at this point of the viewport, in shares of its width and height from the top left: a patch, or where
+    /// photons are seen one of them or else the point of the surface.
     Pick(Vec2),
+    /// Forgets what is picked.
+    Unpick,
+    /// Changes the pattern of paths that is being typed, or leaves it; nothing is filtered by it yet.
+    EditFilter(Option<String>),
     /// Picks the patch with this index.
     PickPatch(u32),
     /// Saves the viewport as it is at once, under a name that is free.

@@ -12,13 +12,14 @@ use super::pictures::{Destination, Job, Pictures};
 use super::preferences::Preferences;
 use super::theme;
 use super::viewport_pane::ViewportPane;
+use super::views::{self, ViewGroup};
 use crate::cli::picture::{self, Format};
 use crate::hard_cases::cases;
 use crate::methods::Settings;
 use crate::scene::Source;
 use crate::viewport::Legend;
-use crate::worker::{Checks, Command, Place, Shown, Snapshot, Worker};
-use egui::{Ui, ViewportCommand};
+use crate::worker::{Checks, Command, Place, Shown, Sight, Snapshot, Worker};
+use egui::{Ui, Vec2, ViewportCommand};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -37,6 +38,10 @@ pub struct Explorer {
     checks: Option<Checks>,
     file_dialogs: FileDialogs,
     look: Look,
+    /// What the solver thread was told last of what is on show.
+    told: Option<Sight>,
+    /// The pattern of paths that is being typed.
+    filter_draft: Option<String>,
     /// Settings that are being edited, or were sent and are not in force yet.
     edited: Option<Settings>,
     dialog: Option<Dialog>,
@@ -73,6 +78,8 @@ impl Explorer {
             checks: None,
             file_dialogs: FileDialogs::new(ctx),
             look: Look::default(),
+            told: None,
+            filter_draft: None,
             edited: None,
             dialog: None,
             notices: Notices::default(),
@@ -141,6 +148,11 @@ impl Explorer {
             phase: &self.snapshot.phase,
             scene: SceneFacts::of(&self.snapshot),
             solution: self.snapshot.solution.as_deref(),
+            photons: self.snapshot.photons.as_deref(),
+            image: views::image(self.look.view, &self.snapshot),
+            trail: self.snapshot.trail.as_deref(),
+            gathered: self.snapshot.gathered.as_deref(),
+            filter_draft: self.filter_draft.as_deref(),
             settings: self.edited.unwrap_or(self.snapshot.settings),
             error,
             look: self.look,
@@ -176,8 +188,10 @@ impl Explorer {
             Action::EditSettings(settings) => self.edited = Some(settings),
             Action::ApplySettings(settings) => self.configure(settings),
             Action::Camera(movement) => self.pane.move_camera(movement),
-            Action::Pick(at) => self.pick(self.pane.patch_at(at)),
+            Action::Pick(at) => self.pick_at(at),
             Action::PickPatch(patch) => self.pick(Some(patch)),
+            Action::Unpick => self.unpick(),
+            Action::EditFilter(draft) => self.filter_draft = draft,
             Action::SavePictureNow => {
                 let request = PictureRequest { size: self.pane.size(), samples: 16, format: Format::Png };
                 self.save_picture(request, Destination::Free(request.format));
@@ -230,6 +244,39 @@ impl Explorer {
         self.worker.send(Command::Pick(place));
     }
 
+    /// Picks what the view shows at a point.
+    fn pick_at(&self, at: Vec2) {
+        match ViewGroup::of(self.look.view) {
+            ViewGroup::Radiosity => self.pick(self.pane.patch_at(at)),
+            ViewGroup::PhotonMap => {
+                let photon = self.pane.photon_at(at, &self.look, self.snapshot.settings.image.filter);
+                let spot = if photon.is_none() { self.pane.spot_at(at) } else { None };
+                self.worker.send(Command::PickPhoton(photon));
+                self.worker.send(Command::Gather(spot));
+            }
+            // What rays bring to a point is not kept.
+            ViewGroup::Rays => {}
+        }
+    }
+
+    fn unpick(&self) {
+        match ViewGroup::of(self.look.view) {
+            ViewGroup::Radiosity => self.worker.send(Command::Pick(None)),
+            ViewGroup::PhotonMap | ViewGroup::Rays => {
+                self.worker.send(Command::PickPhoton(None));
+                self.worker.send(Command::Gather(None));
+            }
+        }
+    }
+
+    /// Tells the solver thread what is on show, if that is another view, camera or size than in the last frame.
+    fn tell_sight(&mut self) {
+        if let Some(sight) = self.pane.sight(&self.look).filter(|sight| self.told != Some(*sight)) {
+            self.told = Some(sight);
+            self.worker.send(Command::Look(sight));
+        }
+    }
+
     fn configure(&mut self, settings: Settings) {
         if settings == self.snapshot.settings {
             self.edited = None;
@@ -278,6 +325,7 @@ impl eframe::App for Explorer {
         if is_changed {
             ctx.request_repaint();
         }
+        self.tell_sight();
         self.clock.end_frame(start);
     }
 

@@ -3,7 +3,7 @@
 use super::action::{Action, CameraMove};
 use super::model::{Dialog, Look, LowerPanel, Model};
 use crate::solution::CameraView;
-use crate::viewport::View;
+use crate::viewport::{PhotonLook, View};
 use crate::worker::Command;
 use egui::{Event, InputState, Key, KeyboardShortcut, Modifiers};
 
@@ -52,6 +52,7 @@ pub const RADIOSITY_SPECULAR: KeyboardShortcut = KeyboardShortcut::new(Modifiers
 pub const FINAL_GATHER: KeyboardShortcut = KeyboardShortcut::new(Modifiers::SHIFT, Key::Num4);
 pub const WIREFRAME: KeyboardShortcut = key(Key::W);
 pub const SHOOTER: KeyboardShortcut = key(Key::O);
+pub const TICKS: KeyboardShortcut = key(Key::T);
 pub const UNPICK: KeyboardShortcut = key(Key::Escape);
 pub const CONVERGENCE: KeyboardShortcut = key(Key::C);
 pub const HARD_CASES: KeyboardShortcut = key(Key::K);
@@ -69,7 +70,7 @@ pub const HELP: KeyboardShortcut = key(Key::F1);
 /// Every key of the window, in the order of its help.
 pub const BINDINGS: &[Binding] = &[
     Binding::new(RUN, "Run or pause", |model| model.can_run().then(|| run_or_pause(model))),
-    Binding::new(STEP_1, "One step: a shot or a sweep", |model| step(model, 1)).repeating(),
+    Binding::new(STEP_1, "One step: a shot, a sweep or a batch", |model| step(model, 1)).repeating(),
     Binding::new(STEP_10, "Ten steps", |model| step(model, 10)),
     Binding::new(STEP_100, "A hundred steps", |model| step(model, 100)),
     Binding::new(RESET, "Start over from the emitters", |model| {
@@ -101,12 +102,16 @@ pub const BINDINGS: &[Binding] = &[
     Binding::new(SHOOTER, "Show or hide the outline of the shooter", |model| {
         Some(Action::SetLook(Look { show_shooter: !model.look.show_shooter, ..model.look }))
     }),
+    Binding::new(TICKS, "Show or hide where photons came from", |model| {
+        let photons = PhotonLook { ticks: !model.look.photons.ticks, ..model.look.photons };
+        Some(Action::SetLook(Look { photons, ..model.look }))
+    }),
     Binding::new(AMBIENT, "Show or hide the light to come, as its mean", |model| {
         Some(Action::SetLook(Look { ambient: !model.look.ambient, ..model.look }))
     }),
     Binding::new(LESS_BOUNCES, "View of bounces: one less", |model| bounce(model, -1)).repeating(),
     Binding::new(MORE_BOUNCES, "View of bounces: one more", |model| bounce(model, 1)).repeating(),
-    Binding::new(UNPICK, "Forget the picked patch", |model| model.patch.map(|_| Action::Send(Command::Pick(None)))),
+    Binding::new(UNPICK, "Forget what is picked", |model| model.has_pick().then_some(Action::Unpick)),
     Binding::new(CONVERGENCE, "Open or close the convergence chart", |model| lower(model, LowerPanel::Convergence)),
     Binding::new(HARD_CASES, "Open or close the hard cases", |model| lower(model, LowerPanel::HardCases)),
     Binding::new(MATRIX, "Show the matrix of form factors", |_| Some(Action::ShowDialog(Dialog::Matrix))),
@@ -222,8 +227,9 @@ pub fn read(ctx: &egui::Context, before: Focus, model: &Model, actions: &mut Vec
 fn take(input: &mut InputState, binding: &Binding) -> bool {
     let mut pressed = false;
     input.events.retain(|event| match event {
-        Event::Key { key, pressed: true, repeat, modifiers, .. }
-            if *key == binding.shortcut.logical_key && modifiers.matches_exact(binding.shortcut.modifiers) =>
+        Event::Key { key, physical_key, pressed: true, repeat, modifiers }
+            if is_key(binding.shortcut.logical_key, *key, *physical_key)
+                && modifiers.matches_exact(binding.shortcut.modifiers) =>
         {
             pressed |= binding.repeats || !repeat;
             false
@@ -231,4 +237,13 @@ fn take(input: &mut InputState, binding: &Binding) -> bool {
         _ => true,
     });
     pressed
+}
+
+const DIGITS: [Key; 10] =
+    [Key::Num0, Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6, Key::Num7, Key::Num8, Key::Num9];
+
+/// Whether `wanted` was pressed. With Shift, a digit's key is for another sign, which depends on the keyboard: there the
+/// place of the key tells.
+fn is_key(wanted: Key, key: Key, place: Option<Key>) -> bool {
+    key == wanted || (DIGITS.contains(&wanted) && place == Some(wanted))
 }

@@ -19,6 +19,7 @@ mod pictures;
 mod preferences;
 pub mod theme;
 mod viewport_pane;
+pub mod views;
 
 pub use explorer::Explorer;
 

@@ -3,14 +3,15 @@
 use super::chart::Chart;
 use super::diagrams::MatrixTexture;
 use super::patch::PatchFacts;
+use super::views;
 use crate::choice::Choice;
 use crate::cli::picture::Format;
 use crate::math::rgb::Rgb64;
 use crate::methods::{Settings, Solver};
 use crate::scene::{Finding, FindingKind};
-use crate::solution::Solution;
+use crate::solution::{CameraImage, Gathered, PhotonSolution, PhotonTrail, Solution};
 use crate::viewport::{Exposure, Legend, PhotonLook, ToneCurve, View};
-use crate::worker::{CheckReport, Curve, Phase, Snapshot};
+use crate::worker::{CheckReport, Curve, LightKind, Phase, Snapshot, Subject};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
@@ -24,6 +25,15 @@ pub struct Model<'a> {
     /// The open scene, if one is open.
     pub scene: Option<SceneFacts<'a>>,
     pub solution: Option<&'a Solution>,
+    pub photons: Option<&'a PhotonSolution>,
+    /// The picture from a camera that is on show, if the view is one.
+    pub image: Option<&'a CameraImage>,
+    /// The way of the picked photon.
+    pub trail: Option<&'a PhotonTrail>,
+    /// What the estimate at the picked point is made of.
+    pub gathered: Option<&'a Gathered>,
+    /// The pattern of paths that is being typed.
+    pub filter_draft: Option<&'a str>,
     /// The settings as they stand in the controls: edited ones where an edit is under way, else those in force.
     pub settings: Settings,
     /// What went wrong last, unless it was dismissed.
@@ -61,9 +71,20 @@ pub struct Model<'a> {
 }
 
 impl Model<'_> {
+    /// Whose work is on show.
+    pub fn subject(&self) -> Subject {
+        views::subject(self.look.view)
+    }
+
+    /// The light that the view shows or is read off, which runs and steps; `None` where rays from the camera find it.
+    pub fn light(&self) -> Option<LightKind> {
+        self.subject().light()
+    }
+
     /// Whether there is light to compute: a scene with an emitter is open, and the solver is alive and not done.
     pub fn can_run(&self) -> bool {
-        self.scene.is_some_and(|scene| !scene.is_dark()) && matches!(self.phase, Phase::Paused | Phase::Running)
+        let is_open = self.scene.is_some_and(|scene| !scene.is_dark());
+        is_open && self.light().is_some() && matches!(self.phase, Phase::Paused | Phase::Running)
     }
 
     pub fn is_running(&self) -> bool {
@@ -75,14 +96,27 @@ impl Model<'_> {
         matches!(self.settings.solver, Solver::Jacobi | Solver::GaussSeidel)
     }
 
-    /// What a step of the solver is called.
+    /// What a step of the light on show is called.
     pub fn step_name(&self) -> &'static str {
-        if self.sweeps() { "sweep" } else { "shot" }
+        match self.light() {
+            Some(LightKind::Photons) => "batch",
+            _ if self.sweeps() => "sweep",
+            _ => "shot",
+        }
+    }
+
+    /// Whether anything is picked that the view shows.
+    pub fn has_pick(&self) -> bool {
+        match self.subject() {
+            Subject::Radiosity => self.patch.is_some(),
+            Subject::Photons | Subject::Camera(_) => self.trail.is_some() || self.gathered.is_some(),
+        }
     }
 
     /// How much of the matrix is built, in [0, 1], while it is.
     pub fn preparation(&self) -> Option<f32> {
-        self.solution.and_then(|solution| solution.preparation)
+        let solution = self.solution.filter(|_| self.light() == Some(LightKind::Radiosity));
+        solution.and_then(|solution| solution.preparation)
     }
 
     /// The most bounces of light that can be looked at.
@@ -90,9 +124,20 @@ impl Model<'_> {
         self.solution.map_or(0, |solution| solution.bounces.len().saturating_sub(1))
     }
 
+    /// Share of the photons that are there, or of the passes of a progressive run, in [0, 1].
+    pub fn photon_progress(&self) -> f32 {
+        let wanted = self.settings.photons;
+        let Some(photons) = self.photons else { return 0.0 };
+        let emitted = photons.counters.emitted as f64 / f64::from(wanted.count.max(1));
+        let pass = if photons.is_complete { 1.0 } else { emitted.min(1.0) };
+        let before = photons.passes - u64::from(photons.is_complete);
+        let passes = if wanted.is_progressive { wanted.passes.max(1) } else { 1 };
+        ((before as f64 + pass) / f64::from(passes)).min(1.0) as f32
+    }
+
     /// How far the light is between the emitters (0) and the stop limit (1), on a logarithmic scale: a solver takes
     /// about as long from 10 % to 1 % of unshot flux as from 100 % to 10 %.
-    pub fn progress(&self) -> f32 {
+    pub fn radiosity_progress(&self) -> f32 {
         let Some(solution) = self.solution.filter(|solution| solution.energy.emitted != Rgb64::ZERO) else {
             return 0.0;
         };

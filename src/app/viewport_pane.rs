@@ -2,10 +2,11 @@
 
 use super::action::CameraMove;
 use super::model::Look;
+use super::views::subject;
 use crate::camera::{Camera, Flight};
 use crate::solution::PathFilter;
-use crate::viewport::{Frame, Gpu, Light, Viewport, automatic_exposure, pick_patch};
-use crate::worker::Snapshot;
+use crate::viewport::{Frame, Gpu, Light, Viewport, automatic_exposure, pick_patch, pick_photon, pick_point};
+use crate::worker::{Sight, Snapshot, Spot};
 use crate::world::World;
 use eframe::egui_wgpu::{Callback, CallbackResources, CallbackTrait, RenderState, ScreenDescriptor};
 use eframe::{egui_wgpu, wgpu};
@@ -132,8 +133,30 @@ impl ViewportPane {
     /// The patch that is seen at a point, in shares of the picture's width and height from the top left.
     pub fn patch_at(&self, at: Vec2) -> Option<u32> {
         let (world, camera) = (self.world.as_ref()?, self.camera.as_ref()?);
-        let pixel = at * Vec2::new(self.size[0] as f32, self.size[1] as f32);
-        pick_patch(world, camera, pixel.into(), self.size)
+        pick_patch(world, camera, self.pixel(at), self.size)
+    }
+
+    /// The photon that is seen nearest to a point, a few pixels away at most.
+    pub fn photon_at(&self, at: Vec2, look: &Look, filter: PathFilter) -> Option<u32> {
+        let (world, photons) = (self.world.as_ref()?, self.light.as_ref()?.photons.as_ref()?);
+        let frame = self.frame(look, filter, self.size)?;
+        pick_photon(world, &photons.photons, &frame, self.pixel(at)).filter(|_| look.view.shows_photons())
+    }
+
+    /// The point of a surface that is seen at a point of the viewport.
+    pub fn spot_at(&self, at: Vec2) -> Option<Spot> {
+        let (world, camera) = (self.world.as_ref()?, self.camera.as_ref()?);
+        pick_point(world, camera, self.pixel(at), self.size).map(|(point, normal)| Spot { point, normal })
+    }
+
+    /// From shares of width and height.
+    fn pixel(&self, at: Vec2) -> [f32; 2] {
+        (at * Vec2::new(self.size[0] as f32, self.size[1] as f32)).into()
+    }
+
+    /// What is on show, as the solver thread is told it; `None` while no scene is open.
+    pub fn sight(&self, look: &Look) -> Option<Sight> {
+        Some(Sight { subject: subject(look.view), camera: self.camera?, size: self.size })
     }
 
     /// The world and the light on show.

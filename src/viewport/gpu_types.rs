@@ -37,7 +37,7 @@ pub struct DisplayUniform {
     pub span: [f32; 2],
 }
 
-/// `Photon` of shaders/photons.wgsl.
+/// `Photon` of shaders/photon.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct PhotonRecord {
@@ -47,12 +47,12 @@ pub struct PhotonRecord {
     pub z: f32,
     /// See [`colour_bytes`].
     pub colour: u32,
-    /// See [`direction_bytes`]; 0 for what is seen from everywhere.
+    /// See [`direction_bytes`].
     pub normal: u32,
     pub direction: u32,
 }
 
-/// `Points` of shaders/photons.wgsl.
+/// `Points` of shaders/photon.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct PointsUniform {
@@ -62,7 +62,8 @@ pub struct PointsUniform {
     pub size: f32,
     /// Unit coordinates.
     pub tick: f32,
-    pub padding: [u32; 3],
+    pub count: u32,
+    pub padding: [u32; 2],
 }
 
 /// `Line` of shaders/lines.wgsl.

@@ -27,7 +27,7 @@ pub use exposure::{Exposure, ToneCurve, automatic_exposure};
 pub use gpu::{AdapterChoice, Gpu, GpuError, adapter_selector, choose_adapter, device_descriptor};
 pub use legend::Legend;
 pub use photons::{ColourClass, PhotonColour, PhotonLook};
-pub use picking::pick_patch;
+pub use picking::{pick_patch, pick_photon, pick_point};
 pub use picture::{Picture, render_picture};
 pub use pipelines::SHADERS;
 pub use view::{Frame, Light, View};
@@ -43,7 +43,7 @@ use pipelines::{Pipelines, bind};
 use shading::{Quantity, Shading};
 use std::mem::size_of;
 use std::sync::Arc;
-use targets::Targets;
+use targets::{Part, Targets};
 
 /// Width of the outlines of elements, pixels.
 const LINE_WIDTH: f32 = 1.0;
@@ -127,7 +127,7 @@ impl Viewport {
     /// Uploads the mesh of a world. It is dark until [`Viewport::set_light`].
     pub fn set_world(&mut self, world: &Arc<World>) {
         let world = WorldBuffers::new(&self.gpu, &self.pipelines, world);
-        self.photons = Some(PhotonLayer::new(&self.gpu, &self.pipelines, &world));
+        self.photons = Some(PhotonLayer::new(&self.gpu, &world));
         self.world = Some(world);
         self.light = None;
         self.uploaded = None;
@@ -180,13 +180,15 @@ impl Viewport {
             contents: Contents { view: frame.view, bounce: frame.bounce, ambient: frame.ambient },
             wireframe: frame.wireframe,
             outlined: self.light.as_ref().and_then(|light| frame.outlined(light)),
-            photons: frame.view.shows_photons().then_some((frame.photons, frame.filter)),
+            photons: self.shows_photons(frame).then_some((frame.photons, frame.filter)),
         };
         self.upload_values(frame, wanted.contents);
         self.set_display(frame, frame.size.map(|pixels| pixels as f32));
         if self.drawn != Some(wanted) {
             self.resize(frame.size);
-            self.upload_photons(frame);
+            if wanted.photons.is_some() {
+                self.upload_photons(frame);
+            }
             self.record(encoder, &wanted);
             self.drawn = Some(wanted);
             self.draws += 1;
@@ -221,10 +223,12 @@ impl Viewport {
     /// Uploads what `frame` shows of photons and has not been uploaded.
     fn upload_photons(&mut self, frame: &Frame) {
         let (Some(photons), Some(light)) = (&mut self.photons, &self.light) else { return };
-        if frame.view.shows_photons() {
-            photons.upload(&self.gpu, light, frame);
-            photons.set_frame(&self.gpu, frame);
-        }
+        photons.upload(&self.gpu, light, frame);
+    }
+
+    /// Whether `frame` shows single photons, and there are some.
+    fn shows_photons(&self, frame: &Frame) -> bool {
+        frame.view.shows_photons() && self.light.as_ref().is_some_and(|light| light.photons.is_some())
     }
 
     /// What is stored in the picture that is presented: of what, and how much for a unit of it.
@@ -283,7 +287,8 @@ impl Viewport {
         let (Some(world), Some(targets)) = (&self.world, &self.targets) else { return };
         let line_width = if wanted.wireframe { LINE_WIDTH } else { 0.0 };
         world.set_frame(&self.gpu, wanted.clip_from_world, wanted.size, line_width);
-        let mut pass = targets.begin(encoder);
+        let photons = self.photons.as_ref().filter(|_| wanted.photons.is_some());
+        let mut pass = targets.begin(encoder, if photons.is_some() { Part::First } else { Part::Whole });
         let surface = if world.is_smooth { &self.pipelines.surface_smooth } else { &self.pipelines.surface_constant };
         pass.set_pipeline(surface);
         pass.set_bind_group(0, world.surface_group(), &[]);
@@ -295,8 +300,11 @@ impl Viewport {
             pass.set_bind_group(0, world.outline_group(), &[]);
             pass.draw(0..6, 0..edges);
         }
-        if let (Some((look, _)), Some(photons)) = (&wanted.photons, &self.photons) {
-            photons.record(&mut pass, &self.pipelines, wanted.contents.view, look);
+        drop(pass);
+        if let Some(photons) = photons {
+            photons.splat(&self.gpu, &self.pipelines, encoder, &targets.depth_samples);
+            let mut pass = targets.begin(encoder, Part::Last);
+            photons.record(&self.gpu, &self.pipelines, &mut pass, wanted.contents.view);
         }
     }
 }

@@ -5,11 +5,23 @@ use super::targets;
 use std::mem::size_of;
 use wgpu::{BindingType, BufferBindingType, ShaderStages};
 
+/// A shader of photons, with what these share.
+macro_rules! photon_shader {
+    ($name:literal) => {
+        concat!(
+            include_str!("../../shaders/common.wgsl"),
+            include_str!("../../shaders/photon.wgsl"),
+            include_str!(concat!("../../shaders/", $name, ".wgsl"))
+        )
+    };
+}
+
 /// Every shader with the part that all share, as it is compiled: name and source.
-pub const SHADERS: [(&str, &str); 5] = [
+pub const SHADERS: [(&str, &str); 6] = [
     ("surface", concat!(include_str!("../../shaders/common.wgsl"), include_str!("../../shaders/surface.wgsl"))),
     ("outline", concat!(include_str!("../../shaders/common.wgsl"), include_str!("../../shaders/outline.wgsl"))),
-    ("photons", concat!(include_str!("../../shaders/common.wgsl"), include_str!("../../shaders/photons.wgsl"))),
+    ("splat", photon_shader!("splat")),
+    ("photons", photon_shader!("photons")),
     ("lines", concat!(include_str!("../../shaders/common.wgsl"), include_str!("../../shaders/lines.wgsl"))),
     ("present", concat!(include_str!("../../shaders/common.wgsl"), include_str!("../../shaders/present.wgsl"))),
 ];
@@ -23,11 +35,14 @@ pub struct Pipelines {
     /// `Frame`, `Outline`.
     pub outline_layout: wgpu::BindGroupLayout,
     pub outline: wgpu::RenderPipeline,
-    /// `Frame`, `Points`, photons.
+    /// `Frame`, `Points`, photons, depths, photons shown.
+    pub splat_layout: wgpu::BindGroupLayout,
+    pub splat: wgpu::ComputePipeline,
+    /// `Frame`, `Points`, photons, photons shown.
     pub photon_layout: wgpu::BindGroupLayout,
     pub photons: wgpu::RenderPipeline,
-    pub ticks: wgpu::RenderPipeline,
-    /// Photons before everything else.
+    /// `Frame`, `Points`, marks.
+    pub mark_layout: wgpu::BindGroupLayout,
     pub marks: wgpu::RenderPipeline,
     /// `Frame`, lines.
     pub line_layout: wgpu::BindGroupLayout,
@@ -41,11 +56,15 @@ pub struct Pipelines {
 
 impl Pipelines {
     pub fn new(device: &wgpu::Device, output_format: wgpu::TextureFormat) -> Self {
-        let [surface, outline, photons, lines, present] =
+        let [surface, outline, splat, photons, lines, present] =
             SHADERS.map(|(name, source)| Program::new(device, name, source));
         let surface_layout = surface.layout(device, &[uniform::<FrameUniform>(), storage(), storage(), storage()]);
         let outline_layout = outline.layout(device, &[uniform::<FrameUniform>(), uniform::<OutlineUniform>()]);
-        let photon_layout = photons.layout(device, &[uniform::<FrameUniform>(), uniform::<PointsUniform>(), storage()]);
+        let points = [uniform::<FrameUniform>(), uniform::<PointsUniform>(), storage()];
+        let [frame, look, photon] = points;
+        let splat_layout = splat.compute_layout(device, &[frame, look, photon, depth_texture(), written_storage()]);
+        let photon_layout = photons.layout(device, &[frame, look, photon, storage()]);
+        let mark_layout = photons.layout(device, &points);
         let line_layout = lines.layout(device, &[uniform::<FrameUniform>(), storage()]);
         let present_layout = present.layout(device, &[uniform::<DisplayUniform>(), texture(), texture()]);
 
@@ -64,23 +83,24 @@ impl Pipelines {
         let constant = Drawing { fragment: "fragment_constant", depth: Depth::Write, cull: true, ..plain };
         let smooth = Drawing { fragment: "fragment_smooth", ..constant };
         let outlines = Drawing { targets: &outline_targets, ..plain };
-        let photon = Drawing { depth: Depth::Write, ..plain };
-        let tick = Drawing { vertex: "vertex_tick", ..plain };
         let in_front = Drawing { depth: Depth::Ignore, ..plain };
+        let mark = Drawing { vertex: "vertex_mark", fragment: "fragment_mark", ..in_front };
         let screen = Drawing { targets: &[Some(output_format.into())], depth: Depth::None, ..plain };
         Self {
             surface_constant: surface.pipeline(device, &surface_layout, &constant),
             surface_smooth: surface.pipeline(device, &surface_layout, &smooth),
             outline: outline.pipeline(device, &outline_layout, &outlines),
-            photons: photons.pipeline(device, &photon_layout, &photon),
-            ticks: photons.pipeline(device, &photon_layout, &tick),
-            marks: photons.pipeline(device, &photon_layout, &in_front),
+            splat: splat.compute_pipeline(device, &splat_layout, "splat"),
+            photons: photons.pipeline(device, &photon_layout, &in_front),
+            marks: photons.pipeline(device, &mark_layout, &mark),
             lines: lines.pipeline(device, &line_layout, &plain),
             ways: lines.pipeline(device, &line_layout, &in_front),
             present: present.pipeline(device, &present_layout, &screen),
             surface_layout,
             outline_layout,
+            splat_layout,
             photon_layout,
+            mark_layout,
             line_layout,
             present_layout,
         }
@@ -135,14 +155,51 @@ impl Program {
     }
 
     fn layout(&self, device: &wgpu::Device, bindings: &[BindingType]) -> wgpu::BindGroupLayout {
+        self.layout_for(device, ShaderStages::VERTEX_FRAGMENT, bindings)
+    }
+
+    fn compute_layout(&self, device: &wgpu::Device, bindings: &[BindingType]) -> wgpu::BindGroupLayout {
+        self.layout_for(device, ShaderStages::COMPUTE, bindings)
+    }
+
+    fn layout_for(
+        &self,
+        device: &wgpu::Device,
+        visibility: ShaderStages,
+        bindings: &[BindingType],
+    ) -> wgpu::BindGroupLayout {
         let entry = |(binding, ty): (usize, &BindingType)| wgpu::BindGroupLayoutEntry {
             binding: binding as u32,
-            visibility: ShaderStages::VERTEX_FRAGMENT,
+            visibility,
             ty: *ty,
             count: None,
         };
         let entries: Vec<_> = bindings.iter().enumerate().map(entry).collect();
         device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(self.name), entries: &entries })
+    }
+
+    fn pipeline_layout(&self, device: &wgpu::Device, bindings: &wgpu::BindGroupLayout) -> wgpu::PipelineLayout {
+        device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some(self.name),
+            bind_group_layouts: &[Some(bindings)],
+            immediate_size: 0,
+        })
+    }
+
+    fn compute_pipeline(
+        &self,
+        device: &wgpu::Device,
+        bindings: &wgpu::BindGroupLayout,
+        entry: &'static str,
+    ) -> wgpu::ComputePipeline {
+        device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some(self.name),
+            layout: Some(&self.pipeline_layout(device, bindings)),
+            module: &self.module,
+            entry_point: Some(entry),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            cache: None,
+        })
     }
 
     fn pipeline(
@@ -151,11 +208,7 @@ impl Program {
         bindings: &wgpu::BindGroupLayout,
         drawing: &Drawing<'_>,
     ) -> wgpu::RenderPipeline {
-        let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some(self.name),
-            bind_group_layouts: &[Some(bindings)],
-            immediate_size: 0,
-        });
+        let layout = self.pipeline_layout(device, bindings);
         let nearer = if drawing.depth == Depth::Ignore {
             wgpu::CompareFunction::Always
         } else {
@@ -205,10 +258,26 @@ fn uniform<T>() -> BindingType {
 }
 
 fn storage() -> BindingType {
+    storage_that(true)
+}
+
+fn written_storage() -> BindingType {
+    storage_that(false)
+}
+
+fn storage_that(read_only: bool) -> BindingType {
     BindingType::Buffer {
-        ty: BufferBindingType::Storage { read_only: true },
+        ty: BufferBindingType::Storage { read_only },
         has_dynamic_offset: false,
         min_binding_size: None,
+    }
+}
+
+fn depth_texture() -> BindingType {
+    BindingType::Texture {
+        sample_type: wgpu::TextureSampleType::Depth,
+        view_dimension: wgpu::TextureViewDimension::D2,
+        multisampled: true,
     }
 }
 

@@ -19,14 +19,26 @@ pub struct Targets {
     pub overlay: wgpu::Texture,
     radiance_samples: wgpu::TextureView,
     overlay_samples: wgpu::TextureView,
-    depth_samples: wgpu::TextureView,
+    pub depth_samples: wgpu::TextureView,
+}
+
+/// Which part of a picture a pass draws.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Part {
+    /// All of it: the pass clears everything, and leaves the means when it ends.
+    Whole,
+    /// What others go on with: the pass clears everything, and leaves the samples.
+    First,
+    /// The rest: the pass leaves the means when it ends.
+    Last,
 }
 
 impl Targets {
     pub fn new(device: &wgpu::Device, size: [u32; 2]) -> Self {
         let mean = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_SRC;
         let samples = |format| {
-            let texture = texture(device, size, format, SAMPLES, TextureUsages::RENDER_ATTACHMENT);
+            let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING;
+            let texture = texture(device, size, format, SAMPLES, usage);
             texture.create_view(&wgpu::TextureViewDescriptor::default())
         };
         Self {
@@ -39,27 +51,28 @@ impl Targets {
         }
     }
 
-    /// Begins a pass that clears everything, and leaves the means when it ends.
-    pub fn begin<'a>(&self, encoder: &'a mut wgpu::CommandEncoder) -> wgpu::RenderPass<'a> {
+    /// Begins a pass over all targets.
+    pub fn begin<'a>(&self, encoder: &'a mut wgpu::CommandEncoder, part: Part) -> wgpu::RenderPass<'a> {
         let [radiance, overlay] = [&self.radiance, &self.overlay].map(view);
+        let store = if part == Part::First { wgpu::StoreOp::Store } else { wgpu::StoreOp::Discard };
+        let is_fresh = part != Part::Last;
         let colour = |view, resolve_target| {
+            let load = if is_fresh { wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT) } else { wgpu::LoadOp::Load };
             Some(wgpu::RenderPassColorAttachment {
                 view,
                 depth_slice: None,
-                resolve_target: Some(resolve_target),
-                ops: wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-                    store: wgpu::StoreOp::Discard,
-                },
+                resolve_target: Some(resolve_target).filter(|_| part != Part::First),
+                ops: wgpu::Operations { load, store },
             })
         };
+        // Depth is reversed: 0 is at infinity.
+        let load = if is_fresh { wgpu::LoadOp::Clear(0.0) } else { wgpu::LoadOp::Load };
         encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("picture"),
             color_attachments: &[colour(&self.radiance_samples, &radiance), colour(&self.overlay_samples, &overlay)],
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
                 view: &self.depth_samples,
-                // Depth is reversed: 0 is at infinity.
-                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
+                depth_ops: Some(wgpu::Operations { load, store }),
                 stencil_ops: None,
             }),
             ..wgpu::RenderPassDescriptor::default()

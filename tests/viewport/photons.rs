@@ -136,7 +136,8 @@ fn ticks_point_to_where_photons_came_from() {
     let world = square();
     let from_the_left = Photon { direction: Vec3::new(1.0, 0.0, 0.0), ..photon(Vec3::ZERO) };
     let drawn = |ticks| {
-        let frame = Frame { photons: PhotonLook { ticks, ..large() }, ..frame(&world, View::Photons) };
+        let look = PhotonLook { ticks, size: 1.0, ..PhotonLook::default() };
+        let frame = Frame { photons: look, ..frame(&world, View::Photons) };
         draw(&world, &light(vec![from_the_left]), &frame)
     };
     let (Some(without), Some(with)) = (drawn(false), drawn(true)) else { return };

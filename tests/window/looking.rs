@@ -40,7 +40,7 @@ fn a_picked_patch_is_described_and_can_be_forgotten() {
     for text in ["Patch 42", "white", "0.0123_m²", "0.725 0.710 0.680", "12.0 6.0 3.0_W/m²", "98.0_%", "2.00_%"] {
         harness.get_by_label(&thin(text));
     }
-    let forget = [Action::Send(Command::Pick(None))];
+    let forget = [Action::Unpick];
     assert_eq!(click(picked(), "Forget patch"), forget);
     assert_eq!(key(picked(), Modifiers::NONE, Key::Escape), forget);
     assert_eq!(key(Stage::default(), Modifiers::NONE, Key::Escape), []);

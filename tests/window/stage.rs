@@ -3,19 +3,25 @@
 use egui::{Rect, TextureHandle, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::NodeT;
+use glam::Vec3;
 use lightwell::app::action::Action;
 use lightwell::app::chart::Chart;
 use lightwell::app::diagrams::MatrixTexture;
 use lightwell::app::model::{Dialog, FrameTime, Look, LowerPanel, Model, Notice, SceneFacts, Theme};
 use lightwell::app::patch::{PatchFacts, PatchLight};
 use lightwell::app::{panels, theme};
+use lightwell::camera::Camera;
 use lightwell::hard_cases::{Row, Verdict, cases};
+use lightwell::math::bounds::Bounds;
 use lightwell::math::rgb::{Rgb, Rgb64};
 use lightwell::methods::{FormFactorMethod, Settings, Solver};
-use lightwell::scene::{Finding, FindingKind, Severity};
-use lightwell::solution::{Closure, Counters, Energy, Progress, Solution};
+use lightwell::scene::{Finding, FindingKind, Severity, Viewpoint};
+use lightwell::solution::{
+    CameraImage, CameraView, Closure, Counters, Energy, Gathered, PhotonCounters, PhotonEnergy, PhotonSolution,
+    PhotonTrail, Progress, Scattering, Solution, TrailPlace,
+};
 use lightwell::viewport::diagram::Swatch;
-use lightwell::viewport::{Legend, View};
+use lightwell::viewport::{Legend, PhotonColour, PhotonLook, View};
 use lightwell::worker::{CheckReport, Curve, CurvePoint, Phase};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -27,6 +33,11 @@ pub struct Stage {
     pub is_open: bool,
     pub findings: Vec<Finding>,
     pub solution: Option<Solution>,
+    pub photons: Option<PhotonSolution>,
+    pub image: Option<CameraImage>,
+    pub trail: Option<PhotonTrail>,
+    pub gathered: Option<Gathered>,
+    pub filter_draft: Option<String>,
     pub settings: Settings,
     pub error: Option<String>,
     pub look: Look,
@@ -55,6 +66,11 @@ impl Default for Stage {
             is_open: true,
             findings: Vec::new(),
             solution: Some(solution()),
+            photons: None,
+            image: None,
+            trail: None,
+            gathered: None,
+            filter_draft: None,
             settings: Settings::default(),
             error: None,
             look: Look::default(),
@@ -98,6 +114,11 @@ impl Stage {
             phase: &self.phase,
             scene: self.is_open.then_some(facts),
             solution: self.solution.as_ref(),
+            photons: self.photons.as_ref(),
+            image: self.image.as_ref(),
+            trail: self.trail.as_ref(),
+            gathered: self.gathered.as_ref(),
+            filter_draft: self.filter_draft.as_deref(),
             settings: self.settings,
             error: self.error.as_deref(),
             look: self.look,
@@ -256,6 +277,77 @@ pub fn checks(is_finished: bool) -> CheckReport {
     CheckReport { rows, running: (!is_finished).then_some(case), is_finished }
 }
 
+/// 10 W emitted as 50,000 photons of 200,000, of which 7 W are absorbed, 2.5 W escaped and 0.5 W truncated.
+pub fn photons() -> PhotonSolution {
+    let watts = |red: f64| Rgb64::new(red, 0.0, 0.0);
+    PhotonSolution {
+        batches: 4,
+        elapsed: Duration::from_millis(250),
+        max_radius: 0.04,
+        energy: PhotonEnergy { emitted: watts(10.0), absorbed: watts(7.0), escaped: watts(2.5), truncated: watts(0.5) },
+        counters: PhotonCounters {
+            emitted: 50_000,
+            caustic_emitted: 0,
+            stored: 90_000,
+            rays: 1_000_000,
+            by_bounce: vec![60_000, 20_000, 0, 10_000],
+            by_path: vec![("LD".to_owned(), 60_000), ("LDD".to_owned(), 30_000)],
+            ..PhotonCounters::default()
+        },
+        ..PhotonSolution::default()
+    }
+}
+
+/// A picture after 4 samples a pixel and 1.5 s.
+pub fn image(view: CameraView) -> CameraImage {
+    let viewpoint = Viewpoint { eye: Vec3::Z, target: Vec3::ZERO, up: Vec3::Y, vertical_fov: 45.0 };
+    CameraImage {
+        view,
+        camera: Camera::new(&viewpoint, &Bounds { min: Vec3::ZERO, max: Vec3::ONE }),
+        size: [1; 2],
+        resolution: [1; 2],
+        radiance: vec![Rgb::ONE],
+        coverage: vec![1.0],
+        samples: 4,
+        rays: 3_000_000,
+        elapsed: Duration::from_millis(1_500),
+        is_complete: false,
+    }
+}
+
+/// A photon that met a mirror, then a diffuse surface, and was absorbed.
+pub fn trail() -> PhotonTrail {
+    let place =
+        |survival: f32, scattering| TrailPlace { point: Vec3::ZERO, flux: Rgb::splat(1e-3), survival, scattering };
+    PhotonTrail {
+        places: vec![
+            place(1.0, Some(Scattering::Diffuse)),
+            place(0.9, Some(Scattering::Specular)),
+            place(0.7, Some(Scattering::Diffuse)),
+            place(0.6, None),
+        ],
+        escape: None,
+    }
+}
+
+pub fn gathered() -> Gathered {
+    Gathered {
+        normal: Vec3::Y,
+        irradiance: Rgb::new(12.0, 6.0, 3.0),
+        radius: 0.02,
+        inside: 0.75,
+        relative_error: 0.1,
+        used: (0..100).collect(),
+        rejected: vec![7, 8],
+        ..Gathered::default()
+    }
+}
+
+/// A stage that shows this view.
+pub fn showing(view: View) -> Stage {
+    Stage { look: Look { view, ..Look::default() }, ..Stage::default() }
+}
+
 /// The widest figures that can come up: watts of a large scene, many rays, a long run; a patch is picked.
 fn crowded() -> Stage {
     let mut solution = solution();
@@ -274,13 +366,42 @@ fn crowded() -> Stage {
 pub fn crowds() -> Vec<Stage> {
     let building = Solution { preparation: Some(0.43), bounces: vec![Arc::default(); 33], ..solution() };
     let look = Look { view: View::Bounces, ..Look::default() };
+    let gather = CameraView::FinalGather;
     let settings = Settings { solver: Solver::GaussSeidel, form_factor: FormFactorMethod::Rays, ..Settings::default() };
     vec![
         crowded(),
         Stage { lower: Some(LowerPanel::Convergence), curves: curves(), ..crowded() },
         Stage { lower: Some(LowerPanel::HardCases), checks: Some(checks(false)), ..crowded() },
         Stage { solution: Some(building), look, settings, ..Stage::default() },
+        crowded_photons(),
+        Stage {
+            image: Some(CameraImage { rays: 987_654_321_012, elapsed: Duration::from_secs(7_500), ..image(gather) }),
+            missing: Some("This picture is read off photons, and there are none yet: press Run"),
+            look: Look { view: View::Camera(gather), ..Look::default() },
+            ..crowded_photons()
+        },
     ]
+}
+
+/// Many photons, two of everything picked, a pattern that is none.
+fn crowded_photons() -> Stage {
+    let mut photons = photons();
+    photons.counters.emitted = 48_765_432;
+    photons.counters.caustic_emitted = 48_765_432;
+    photons.counters.caustic_stored = 8_765_432;
+    photons.counters.rays = 987_654_321_012;
+    let mut settings = Settings::default();
+    settings.photons.is_progressive = true;
+    let photon_look = PhotonLook { colour: PhotonColour::Path, ..PhotonLook::default() };
+    Stage {
+        photons: Some(photons),
+        trail: Some(trail()),
+        gathered: Some(gathered()),
+        filter_draft: Some("LD(E".to_owned()),
+        settings,
+        look: Look { view: View::KdTree, photons: photon_look, ..Look::default() },
+        ..Stage::default()
+    }
 }
 
 /// Every text on show and where it is, without what has to be scrolled to.

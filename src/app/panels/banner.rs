@@ -7,7 +7,7 @@ use crate::app::model::Model;
 use crate::app::theme::{Palette, UNIT};
 use crate::methods::{Settings, Solver};
 use crate::viewport::View;
-use crate::worker::{Command, Phase};
+use crate::worker::{Command, LightKind, Phase};
 use egui::{Align, Button, Layout, RichText, Ui};
 
 /// One message and what can be done about it.
@@ -65,10 +65,22 @@ fn remedy_for_view(model: &Model) -> Option<Remedy> {
             hover: "Builds the matrix and goes bounce by bounce",
             action: Action::Send(Command::Run),
         }),
-        View::FormFactors => model.solution.and_then(|solution| solution.shooter).map(|shooter| Remedy {
-            name: "Pick the shooter",
-            hover: "Picks the patch that shot last",
-            action: Action::PickPatch(shooter),
+        View::Bounces => None,
+        View::FormFactors if model.solution.is_some() => {
+            model.solution.and_then(|solution| solution.shooter).map(|shooter| Remedy {
+                name: "Pick the shooter",
+                hover: "Picks the patch that shot last",
+                action: Action::PickPatch(shooter),
+            })
+        }
+        View::Camera(view) if !view.needs_photons() && !view.needs_radiosity() => None,
+        _ if model.can_run() && !model.is_running() => Some(Remedy {
+            name: "Run",
+            hover: match model.light() {
+                Some(LightKind::Photons) => "Emits photons until all that are wanted are there",
+                _ => "Spreads light until the stop limit is reached",
+            },
+            action: Action::Send(Command::Run),
         }),
         _ => None,
     }

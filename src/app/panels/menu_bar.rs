@@ -4,10 +4,10 @@ use super::icons::Icon;
 use crate::app::action::{Action, CameraMove};
 use crate::app::keys;
 use crate::app::model::{Dialog, Look, LowerPanel, Model, PictureRequest, Theme};
+use crate::app::views::ViewGroup;
 use crate::choice::Choice;
 use crate::cli::picture::Format;
 use crate::scene::BUILTINS;
-use crate::viewport::View;
 use egui::accesskit::Role;
 use egui::{Atom, Button, IdSalt, KeyboardShortcut, MenuBar, Response, Ui, WidgetInfo, vec2};
 
@@ -52,9 +52,13 @@ fn file_menu(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
 
 fn view_menu(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     let look = model.look;
-    for &view in View::ALL {
-        let chosen = || actions.push(Action::SetLook(Look { view, ..look }));
-        choice(ui, view.label(), look.view == view, Some(&keys::of_view(view)), chosen);
+    for &group in ViewGroup::ALL {
+        submenu(ui, group.label(), |ui| {
+            for view in group.views() {
+                let chosen = || actions.push(Action::SetLook(Look { view, ..look }));
+                choice(ui, view.label(), look.view == view, Some(&keys::of_view(view)), chosen);
+            }
+        });
     }
     ui.separator();
     choice(ui, "Wireframe", look.wireframe, Some(&keys::WIREFRAME), || {

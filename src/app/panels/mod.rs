@@ -4,16 +4,19 @@ mod banner;
 mod chart;
 mod diagrams;
 mod dialogs;
+mod energy;
 mod exposure;
 mod findings;
 mod hard_cases;
 mod icons;
-mod ledger;
 mod legend;
 mod lower;
 mod menu_bar;
 mod notices;
 mod patch;
+mod photon_bar;
+mod picked_photon;
+mod progress;
 mod settings;
 mod status_line;
 mod transport;
@@ -25,6 +28,8 @@ use super::action::Action;
 use super::keys;
 use super::model::Model;
 use super::theme::UNIT;
+use super::views::ViewGroup;
+use crate::choice::Choice as _;
 use crate::viewport::View;
 use egui::{CentralPanel, Frame, Margin, Panel, Rect, ScrollArea, Ui};
 
@@ -46,6 +51,10 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>, paint: impl F
             let panel = Panel::top("bounces").frame(bar_frame(ui, 6));
             panel.show(ui, |ui| view_bar::bounces(ui, model, actions));
         }
+        if model.look.view.shows_photons() {
+            let panel = Panel::top("photon bar").frame(bar_frame(ui, 6));
+            panel.show(ui, |ui| photon_bar::show(ui, model, actions));
+        }
         lower::show(ui, model, actions);
         for banner in banner::all(model) {
             let panel = Panel::top(("banner", banner.message)).frame(bar_frame(ui, 8));
@@ -54,6 +63,10 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>, paint: impl F
         let area = viewport::show(ui, model, actions, paint);
         if let Some(legend) = &model.legend {
             legend::show(ui, area, legend);
+        }
+        let classes = model.look.photons.colour.classes();
+        if model.look.view.shows_photons() && !classes.is_empty() {
+            photon_bar::legend(ui, area, model.look.photons.colour.label(), &classes);
         }
         notices::show(ui, area, model, actions);
     });
@@ -72,8 +85,12 @@ fn side_panel(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         Frame::new().inner_margin(Margin::symmetric(16, 12)).show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = UNIT;
-            widgets::section(ui, "Energy", |ui| ledger::show(ui, model));
-            patch::show(ui, model, actions);
+            widgets::section(ui, "Energy", |ui| energy::show(ui, model));
+            match ViewGroup::of(model.look.view) {
+                ViewGroup::Radiosity => patch::show(ui, model, actions),
+                ViewGroup::PhotonMap => picked_photon::show(ui, model, actions),
+                ViewGroup::Rays => {}
+            }
             widgets::section(ui, "Exposure", |ui| exposure::show(ui, model, actions));
             widgets::section(ui, "Settings", |ui| settings::show(ui, model, actions));
             findings::show(ui, model);

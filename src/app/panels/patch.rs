@@ -8,7 +8,6 @@ use crate::app::model::{Dialog, Model};
 use crate::app::patch::PatchFacts;
 use crate::app::theme::UNIT;
 use crate::math::rgb::Rgb;
-use crate::worker::Command;
 use egui::{Image, Ui, vec2};
 
 /// Edge of the picture of its item buffer.
@@ -41,7 +40,7 @@ fn buttons(ui: &mut Ui, actions: &mut Vec<Action>) {
         }
         let hover = with_key(ui, "Takes the outline and this section away", Some(&keys::UNPICK));
         if ui.button("Forget patch").on_hover_text(hover).clicked() {
-            actions.push(Action::Send(Command::Pick(None)));
+            actions.push(Action::Unpick);
         }
     });
 }

@@ -3,9 +3,10 @@
 use crate::app::format;
 use crate::app::model::{Model, SceneFacts};
 use crate::app::theme::UNIT;
-use crate::solution::Solution;
-use crate::worker::Phase;
+use crate::solution::{CameraImage, PhotonSolution, Solution};
+use crate::worker::{LightKind, Phase};
 use egui::{Align, Layout, RichText, Ui};
+use std::time::Duration;
 
 pub fn show(ui: &mut Ui, model: &Model) {
     ui.spacing_mut().interact_size.y = 5.0 * UNIT;
@@ -17,9 +18,7 @@ pub fn show(ui: &mut Ui, model: &Model) {
                 if let Some(facts) = &model.scene {
                     scene(ui, facts);
                 }
-                if let Some(solution) = model.solution {
-                    run(ui, model, solution);
-                }
+                work(ui, model);
                 ui.label(RichText::new(phase(model.phase)).small().weak());
             });
         });
@@ -32,26 +31,63 @@ fn scene(ui: &mut Ui, facts: &SceneFacts) {
     item(ui, format::counted(facts.elements as u64, "element"), "Elements, the pieces of patches, receive light");
 }
 
-fn run(ui: &mut Ui, model: &Model, solution: &Solution) {
+/// The price of what is on show: of a picture from a camera its own and that of the light that it is read off.
+fn work(ui: &mut Ui, model: &Model) {
+    if let Some(picture) = model.image {
+        image(ui, picture);
+    }
+    match (model.light(), model.solution, model.photons) {
+        (Some(LightKind::Radiosity), Some(solution), _) if model.image.is_none() => radiosity(ui, model, solution),
+        (Some(LightKind::Photons), _, Some(found)) => photons(ui, found, model.image.is_some()),
+        _ => {}
+    }
+}
+
+fn image(ui: &mut Ui, image: &CameraImage) {
+    let samples = match image.samples {
+        0 => "coarse".to_owned(),
+        samples => format!("{} a pixel", format::counted(samples.into(), "sample")),
+    };
+    item(ui, samples, "Samples of this picture so far. Four times as many halve the noise.");
+    item(ui, format::duration(image.elapsed), "Time spent on this picture; drawing and waiting do not count");
+    rays(ui, image.rays, image.elapsed);
+}
+
+fn photons(ui: &mut Ui, photons: &PhotonSolution, is_short: bool) {
+    let counters = &photons.counters;
+    let emitted = format::short((counters.emitted + counters.caustic_emitted) as f64, "photons");
+    item(ui, emitted, "Photons that have left the emitters in this pass");
+    item(ui, format::duration(photons.elapsed), "Time spent on photons; drawing and waiting do not count");
+    if is_short {
+        return;
+    }
+    item(ui, format!("{} stored", format::short(photons.photons.len() as f64, "")), "Landings that are kept and drawn");
+    if photons.passes > 1 {
+        item(ui, format::counted(photons.passes, "pass"), "Passes that are done, each with photons of its own");
+    }
+    rays(ui, counters.rays, photons.elapsed);
+}
+
+fn radiosity(ui: &mut Ui, model: &Model, solution: &Solution) {
     let hover = if model.sweeps() {
         "How often all patches have gathered light from all others"
     } else {
         "How often a patch has shot its light into the scene"
     };
     item(ui, format::counted(solution.steps, model.step_name()), hover);
-    let seconds = solution.elapsed.as_secs_f64();
-    let rate = if seconds > 0.0 { solution.counters.rays as f64 / seconds } else { 0.0 };
-    item(
-        ui,
-        format::si(rate, "rays/s"),
-        &format!("{} in the time of the solver", format::counted(solution.counters.rays, "ray")),
-    );
+    rays(ui, solution.counters.rays, solution.elapsed);
     item(ui, format::duration(solution.elapsed), "Time that the solver has worked; drawing and waiting do not count");
     item(
         ui,
         format!("{} unshot", format::percent(solution.unshot_share)),
         "Share of the emitted flux that still waits to be passed on",
     );
+}
+
+fn rays(ui: &mut Ui, rays: u64, elapsed: Duration) {
+    let seconds = elapsed.as_secs_f64();
+    let rate = if seconds > 0.0 { rays as f64 / seconds } else { 0.0 };
+    item(ui, format::si(rate, "rays/s"), &format!("{} in this time", format::counted(rays, "ray")));
 }
 
 fn window(ui: &mut Ui, model: &Model) {

@@ -6,27 +6,55 @@ use crate::app::format;
 use crate::app::keys;
 use crate::app::model::{Look, Model};
 use crate::app::theme::UNIT;
+use crate::app::views::ViewGroup;
 use crate::choice::Choice;
 use crate::viewport::View;
 use egui::{Align, Button, Layout, Ui, vec2};
 
-/// From this width on the toggles lie in the bar, else in a menu.
-const ROOM_FOR_TOGGLES: f32 = 225.0 * UNIT;
+/// From this width on the groups of views are buttons, else a menu.
+const ROOM_FOR_GROUPS: f32 = 225.0 * UNIT;
+/// The same for the toggles.
+const ROOM_FOR_TOGGLES: f32 = 280.0 * UNIT;
 /// The same for the buttons of the camera.
-const ROOM_FOR_CAMERA: f32 = 270.0 * UNIT;
+const ROOM_FOR_CAMERA: f32 = 330.0 * UNIT;
 
 pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     let look = model.look;
     let width = ui.available_width();
     ui.horizontal(|ui| {
-        views(ui, look, actions);
-        fold(ui, "Show", width < ROOM_FOR_TOGGLES, |ui| toggles(ui, look, actions));
+        let group = ViewGroup::of(look.view);
+        if width < ROOM_FOR_GROUPS {
+            ui.menu_button(group.label(), |ui| groups(ui, look, actions)).response.on_hover_text(group.meaning());
+        } else {
+            groups(ui, look, actions);
+            ui.separator();
+        }
+        views(ui, look, group, actions);
+        if group == ViewGroup::Radiosity {
+            fold(ui, "Show", width < ROOM_FOR_TOGGLES, |ui| toggles(ui, look, actions));
+        }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             ui.add_enabled_ui(model.scene.is_some(), |ui| {
                 fold(ui, "Camera", width < ROOM_FOR_CAMERA, |ui| camera_buttons(ui, actions));
             });
         });
     });
+}
+
+/// The groups of views; another one begins with its first view.
+fn groups(ui: &mut Ui, look: Look, actions: &mut Vec<Action>) {
+    let shown = ViewGroup::of(look.view);
+    let segment = |&group: &ViewGroup| Segment {
+        name: group.label(),
+        hover: group.meaning(),
+        shortcut: None,
+        is_chosen: group == shown,
+    };
+    let segments: Vec<Segment> = ViewGroup::ALL.iter().map(segment).collect();
+    let chosen = segmented(ui, 0.0, &segments).map(|chosen| ViewGroup::ALL[chosen]);
+    if let Some(group) = chosen.filter(|group| *group != shown) {
+        actions.push(Action::SetLook(Look { view: group.first(), ..look }));
+    }
 }
 
 /// The contents, or a menu that opens to show them.
@@ -38,21 +66,22 @@ fn fold(ui: &mut Ui, name: &str, is_folded: bool, contents: impl FnOnce(&mut Ui)
     }
 }
 
-fn views(ui: &mut Ui, look: Look, actions: &mut Vec<Action>) {
+fn views(ui: &mut Ui, look: Look, group: ViewGroup, actions: &mut Vec<Action>) {
+    let views: Vec<View> = group.views().collect();
     let segment = |&view: &View| Segment {
         name: view.label(),
         hover: view.meaning(),
         shortcut: Some(keys::of_view(view)),
         is_chosen: look.view == view,
     };
-    let segments: Vec<Segment> = View::ALL.iter().map(segment).collect();
+    let segments: Vec<Segment> = views.iter().map(segment).collect();
     let chosen = ui.scope(|ui| {
         // Six of them have to fit into the smallest window.
-        ui.spacing_mut().button_padding.x = 2.0 * UNIT;
+        ui.spacing_mut().button_padding.x = 1.5 * UNIT;
         segmented(ui, 0.0, &segments)
     });
     if let Some(chosen) = chosen.inner {
-        actions.push(Action::SetLook(Look { view: View::ALL[chosen], ..look }));
+        actions.push(Action::SetLook(Look { view: views[chosen], ..look }));
     }
 }
 

@@ -1,6 +1,6 @@
 //! Photons as records of the graphics device.
 
-use super::PhotonColour;
+use super::{PhotonColour, SPLATS};
 use crate::math::polygon::vector_area;
 use crate::math::rgb::Rgb;
 use crate::solution::{Path, PathFilter, PathMatcher, Photon, PhotonSolution, Scattering};
@@ -12,6 +12,9 @@ use crate::world::World;
 use glam::{DVec3, Vec3};
 use std::collections::HashMap;
 use std::sync::Arc;
+
+/// As many photons are drawn at most: what one dispatch of threads can do.
+const MOST: usize = 65_535 * SPLATS;
 
 /// Linear colours of marks.
 const USED: Rgb = Rgb::new(0.1, 0.9, 0.2);
@@ -40,7 +43,7 @@ struct Shown {
 
 impl Cloud {
     /// Without a photon.
-    pub fn new(world: &World, units: Units, records: Records<PhotonRecord>) -> Self {
+    pub fn new(gpu: &Gpu, world: &World, units: Units) -> Self {
         let scene = &world.scene;
         let normals = scene.polygons.iter().flat_map(|polygon| {
             let corners: Vec<DVec3> =
@@ -48,7 +51,7 @@ impl Cloud {
             let normal = vector_area(&corners).normalize_or_zero().as_vec3();
             [direction_bytes(normal), direction_bytes(-normal)]
         });
-        Self { records, shown: None, normals: normals.collect(), units }
+        Self { records: Records::new(gpu), shown: None, normals: normals.collect(), units }
     }
 
     pub fn records(&self) -> &Records<PhotonRecord> {
@@ -73,7 +76,7 @@ impl Cloud {
             self.records.clear();
         }
         // Some of too many show as well where they are dense.
-        let stride = photons.len().div_ceil(Records::<PhotonRecord>::limit(gpu)).max(1);
+        let stride = photons.len().div_ceil(MOST.min(Records::<PhotonRecord>::limit(gpu))).max(1);
         let mut passing = Passing::new(filter);
         let new = photons[first_new..].iter().step_by(stride).filter(|photon| passing.holds(photon));
         let (normals, units) = (&self.normals, &self.units);
@@ -98,17 +101,17 @@ impl Shown {
 }
 
 /// Which photons pass a filter if the eye sees them land. There are far fewer paths than photons.
-struct Passing {
+pub struct Passing {
     matcher: Option<PathMatcher>,
     known: HashMap<Path, bool>,
 }
 
 impl Passing {
-    fn new(filter: &PathFilter) -> Self {
+    pub fn new(filter: &PathFilter) -> Self {
         Self { matcher: (!filter.passes_all()).then(|| filter.matcher()), known: HashMap::new() }
     }
 
-    fn holds(&mut self, photon: &Photon) -> bool {
+    pub fn holds(&mut self, photon: &Photon) -> bool {
         let Some(matcher) = &self.matcher else { return true };
         let passes = || matcher.passes(photon.path, Some(Scattering::Diffuse), Path::LIGHT);
         *self.known.entry(photon.path).or_insert_with(passes)

@@ -1,14 +1,14 @@
-//! What the solver is told: how to solve, how finely to cut, how many rays to trace, when to stop. Only what the chosen
-//! solver and form factors use is shown. A slider takes effect when it is let go, a number when it is entered.
+//! What the radiosity solver is told: how to solve, how finely to cut, how many rays to trace, when to stop. Only what the
+//! chosen solver and form factors use is shown.
 
-use super::widgets::{Segment, choice, labelled, row, segmented, slider};
+use super::{apply_when_done, count};
 use crate::app::action::Action;
 use crate::app::format;
 use crate::app::model::{Model, SceneFacts};
+use crate::app::panels::widgets::{Segment, choice, labelled, row, segmented, slider};
 use crate::app::theme::UNIT;
 use crate::methods::{FormFactorMethod, Settings, Solver};
-use egui::{Checkbox, DragValue, Response, RichText, Ui};
-use std::ops::RangeInclusive;
+use egui::{Checkbox, Ui};
 
 pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     let settings = model.settings;
@@ -29,9 +29,6 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     }
     patch_edge(ui, settings, actions);
     stop_limit(ui, settings, actions);
-    seed(ui, settings, actions);
-    let note = "Sliders take effect when let go. All but the stop limit start the light over.";
-    ui.label(RichText::new(note).small().weak());
 }
 
 fn solver(ui: &mut Ui, settings: Settings, actions: &mut Vec<Action>) {
@@ -77,13 +74,6 @@ fn hemicube_resolution(ui: &mut Ui, mut settings: Settings, actions: &mut Vec<Ac
     let range = Settings::MIN_HEMICUBE_RESOLUTION..=Settings::MAX_HEMICUBE_RESOLUTION;
     let response = count(ui, "Resolution", hover, &mut settings.hemicube_resolution, range);
     apply_when_done(&response, settings, actions);
-}
-
-/// A slider for a number of things, on a logarithmic scale.
-fn count(ui: &mut Ui, label: &str, hover: &str, value: &mut u32, range: RangeInclusive<u32>) -> Response {
-    labelled(ui, label, hover, |ui| {
-        slider(ui, value, range, true, |value| format::count(value as u64), |text| format::parse(text, ""))
-    })
 }
 
 fn element_size(ui: &mut Ui, mut settings: Settings, scene: SceneFacts, actions: &mut Vec<Action>) {
@@ -132,20 +122,4 @@ fn stop_limit(ui: &mut Ui, mut settings: Settings, actions: &mut Vec<Action>) {
         slider(ui, limit, 1e-5..=0.1, true, format::percent, parse)
     });
     apply_when_done(&response, settings, actions);
-}
-
-fn seed(ui: &mut Ui, mut settings: Settings, actions: &mut Vec<Action>) {
-    let hover = "Every random number comes from it: the same seed gives the same light, to the bit";
-    let value = DragValue::new(&mut settings.seed).range(0..=u32::MAX).update_while_editing(false);
-    let response = labelled(ui, "Seed", hover, |ui| ui.add(value));
-    apply_when_done(&response, settings, actions);
-}
-
-/// Sends the settings once a drag ends or a value is entered; until then the controls only show them.
-fn apply_when_done(response: &Response, settings: Settings, actions: &mut Vec<Action>) {
-    if response.drag_stopped() || (response.changed() && !response.dragged()) {
-        actions.push(Action::ApplySettings(settings));
-    } else if response.changed() {
-        actions.push(Action::EditSettings(settings));
-    }
 }
