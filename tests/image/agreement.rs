@@ -9,7 +9,7 @@ use lightwell::methods::{ImageSettings, PhotonSettings, Settings};
 use lightwell::solution::{CameraImage, CameraView};
 
 /// A rectangle of a picture, in pixels of a square of 64: name, x, y.
-type Part = (&'static str, [f32; 2], [f32; 2]);
+pub type Part = (&'static str, [f32; 2], [f32; 2]);
 
 const BACK_WALL: Part = ("back wall", [26.0, 38.0], [16.0, 22.0]);
 const RED_WALL: Part = ("red wall", [2.0, 8.0], [26.0, 38.0]);
@@ -24,7 +24,7 @@ const CORNER: Part = ("back corner", [17.0, 19.0], [18.0, 22.0]);
 const SIZE: [u32; 2] = [128, 128];
 const PATHS: u64 = 100_000;
 
-fn settings() -> Settings {
+pub fn settings() -> Settings {
     Settings {
         photons: PhotonSettings { count: 400_000, ..PhotonSettings::default() },
         image: ImageSettings { samples: 4, gather_rays: 64, light_rays: 4, ..ImageSettings::default() },
@@ -32,7 +32,7 @@ fn settings() -> Settings {
     }
 }
 
-fn mean_of(image: &CameraImage, (_, x, y): Part) -> Rgb {
+pub fn mean_of(image: &CameraImage, (_, x, y): Part) -> Rgb {
     mean(image, x.map(|pixel| pixel / 64.0), y.map(|pixel| pixel / 64.0))
 }
 
@@ -41,7 +41,7 @@ fn truth_of(sources: &Sources, camera: &Camera, (_, x, y): Part) -> Region {
 }
 
 /// Compares parts with brute force: within 3 standard errors of that and `tolerance`, a share, for the view's own.
-fn check(sources: &Sources, camera: &Camera, image: &CameraImage, parts: &[Part], tolerance: f64) {
+pub fn check(sources: &Sources, camera: &Camera, image: &CameraImage, parts: &[Part], tolerance: f64) {
     for &part in parts {
         let truth = truth_of(sources, camera, part).total;
         let got = f64::from(mean_of(image, part).element_sum());

@@ -3,6 +3,7 @@
 mod agreement;
 mod film;
 mod rays;
+mod spheres;
 mod truth;
 
 use glam::Vec3;
