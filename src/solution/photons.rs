@@ -88,7 +88,8 @@ pub struct PhotonSolution {
     pub elapsed: Duration,
     /// Whether all photons of the present pass are there.
     pub is_complete: bool,
-    /// The photons of the present pass, those of the caustic map included.
+    /// The photons of the present pass, those of the caustic map included. While they are still coming, the last few may be
+    /// missing that the counters know of already; those that are there keep their places.
     pub photons: Arc<Vec<Photon>>,
     /// How the tree divides them, from the root down to a depth that can still be drawn.
     pub splits: Arc<Vec<Split>>,

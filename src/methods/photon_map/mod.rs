@@ -1,5 +1,12 @@
 //! Photon mapping (Jensen 1996, 2001): photons are traced from the emitters and kept where they land on diffuse surfaces;
 //! where they are dense, there is much light.
+//!
+//! - `trace` follows one photon, `batch` many, `tally` keeps their books, `trail` follows one again.
+//! - `tree` and `nearest` find the photons near a point.
+//! - `facet`, `ground`, `border` and `horizon` tell which of them landed on the same surface, and where that ends.
+//! - `maps` puts the two together into an estimate (`density`, `kernel`), and `radius` says over how large a disc.
+//!
+//! With shading normals, photons are scattered round them, but what they carry is counted on the true surface.
 
 mod batch;
 mod border;
