@@ -147,6 +147,11 @@ pub struct Lobes {
 }
 
 impl Lobes {
+    /// Whether light goes through.
+    pub fn is_clear(&self) -> bool {
+        self.glass > 0.0 || self.straight != Rgb::ZERO
+    }
+
     /// Whether there is anything but a diffuse lobe.
     pub fn is_specular(&self) -> bool {
         Self { diffuse: Rgb::ZERO, exponent: 0.0, filter: Rgb::ZERO, ..*self } != Self::default()

@@ -13,7 +13,12 @@ pub struct Surfaces {
     regions: Vec<Region>,
     /// Unit normals of fronts, and areas in m².
     facing: Vec<(Vec3A, f64)>,
+    /// Whether light goes through.
+    is_clear: Vec<bool>,
 }
+
+/// A walk goes through at most so many clear surfaces at a time.
+const MOST_CLEAR: usize = 16;
 
 /// A place on one side of a polygon.
 #[derive(Clone, Copy, Debug)]
@@ -39,7 +44,9 @@ impl Surfaces {
             (area.normalize().as_vec3a(), area.length())
         };
         let regions: Vec<Region> = scene.polygons.iter().map(region).collect();
-        Self { facing: regions.iter().map(facing).collect(), regions }
+        let is_clear = |polygon: &Polygon| scene.materials[polygon.material as usize].lobes().is_clear();
+        let is_clear = scene.polygons.iter().map(is_clear).collect();
+        Self { facing: regions.iter().map(facing).collect(), is_clear, regions }
     }
 
     pub fn len(&self) -> usize {
@@ -74,13 +81,22 @@ impl Surfaces {
         Place { side, point: points.point(stream.uniform2()), normal }
     }
 
-    /// Where a cosine-distributed ray from a place arrives; `None` if it leaves the scene.
+    /// Where a cosine-distributed ray from a place arrives; `None` if it leaves the scene. It goes through every other clear
+    /// surface in its way, unbent: what glass lights is lit by way of it, wherever exactly.
     pub fn bounce(&self, from: &Place, tracer: &Tracer, stream: &mut Stream) -> Option<Place> {
         let direction = frame(from.normal) * cosine_hemisphere(stream.uniform2());
-        let hit = tracer.closest(&Ray { origin: from.point, direction })?;
-        let side = side_index(hit.polygon, hit.is_front);
-        let normal = self.normal(side);
-        Some(Place { side, point: tracer.lift(from.point + hit.distance * direction, normal), normal })
+        let mut origin = from.point;
+        for _ in 0..MOST_CLEAR {
+            let hit = tracer.closest(&Ray { origin, direction })?;
+            let side = side_index(hit.polygon, hit.is_front);
+            let normal = self.normal(side);
+            let point = origin + hit.distance * direction;
+            if !self.is_clear[hit.polygon as usize] || stream.uniform() < 0.5 {
+                return Some(Place { side, point: tracer.lift(point, normal), normal });
+            }
+            origin = tracer.lift(point, -normal);
+        }
+        None
     }
 }
 

@@ -12,6 +12,10 @@ Kd 0 0 0
 newmtl lamp
 Kd 0 0 0
 Ke 1 1 1
+newmtl glass
+Kd 0 0 0
+Ni 1.5
+illum 7
 newmtl glow
 Kd 0.5 0.5 0.5
 Ke 1 1 1

@@ -56,6 +56,19 @@ fn of_a_box_in_a_room_only_the_outside_is_meshed() {
 }
 
 #[test]
+fn what_is_lit_through_glass_alone_is_meshed() {
+    let (low, high) = (Vec3::new(0.7, 1.0, 0.7), Vec3::new(1.3, 1.6, 1.3));
+    for material in ["glass", "black"] {
+        let obj = Obj::new().object("case", material).block(low, high).object("room", "white");
+        let obj = obj.room(Vec3::ZERO, Vec3::splat(2.0)).object("lamp", "lamp");
+        let world = build(obj.level_down([0.9, 1.1], 1.3, [0.9, 1.1]).open());
+        assert_meshed(&world, "room", |side| material == "glass" && toward(Vec3::ONE)(side));
+        // Its own room is lit in any case.
+        assert_meshed(&world, "case", |side| material == "glass" || toward(0.5 * (low + high))(side));
+    }
+}
+
+#[test]
 fn a_thin_wall_between_two_lit_halves_has_both_its_sides() {
     let wall = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(y, z)| Vec3::new(1.0, y, z));
     let obj = Obj::new().object("wall", "white").face(wall);
