@@ -27,6 +27,8 @@ pub enum Action {
     /// Picks what is at this point of the viewport, in shares of its width and height from the top left: a patch, or where
     /// photons are seen one of them or else the point of the surface.
     Pick(Vec2),
+    /// Picks the point of the surface there, where a photon may be in the way.
+    PickPoint(Vec2),
     /// Forgets what is picked.
     Unpick,
     /// Changes the pattern of paths that is being typed, or leaves it; nothing is filtered by it yet.

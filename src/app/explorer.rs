@@ -18,7 +18,7 @@ use crate::hard_cases::cases;
 use crate::methods::Settings;
 use crate::scene::Source;
 use crate::viewport::Legend;
-use crate::worker::{Checks, Command, Place, Shown, Sight, Snapshot, Worker};
+use crate::worker::{Checks, Command, Place, Shown, Sight, Snapshot, Spot, Worker};
 use egui::{Ui, Vec2, ViewportCommand};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -189,6 +189,7 @@ impl Explorer {
             Action::ApplySettings(settings) => self.configure(settings),
             Action::Camera(movement) => self.pane.move_camera(movement),
             Action::Pick(at) => self.pick_at(at),
+            Action::PickPoint(at) => self.pick_photons(None, self.pane.spot_at(at)),
             Action::PickPatch(patch) => self.pick(Some(patch)),
             Action::Unpick => self.unpick(),
             Action::EditFilter(draft) => self.filter_draft = draft,
@@ -250,9 +251,7 @@ impl Explorer {
             ViewGroup::Radiosity => self.pick(self.pane.patch_at(at)),
             ViewGroup::PhotonMap => {
                 let photon = self.pane.photon_at(at, &self.look, self.snapshot.settings.image.filter);
-                let spot = if photon.is_none() { self.pane.spot_at(at) } else { None };
-                self.worker.send(Command::PickPhoton(photon));
-                self.worker.send(Command::Gather(spot));
+                self.pick_photons(photon, self.pane.spot_at(at).filter(|_| photon.is_none()));
             }
             // What rays bring to a point is not kept.
             ViewGroup::Rays => {}
@@ -262,11 +261,14 @@ impl Explorer {
     fn unpick(&self) {
         match ViewGroup::of(self.look.view) {
             ViewGroup::Radiosity => self.worker.send(Command::Pick(None)),
-            ViewGroup::PhotonMap | ViewGroup::Rays => {
-                self.worker.send(Command::PickPhoton(None));
-                self.worker.send(Command::Gather(None));
-            }
+            ViewGroup::PhotonMap | ViewGroup::Rays => self.pick_photons(None, None),
         }
+    }
+
+    /// One of the two, or neither.
+    fn pick_photons(&self, photon: Option<u32>, spot: Option<Spot>) {
+        self.worker.send(Command::PickPhoton(photon));
+        self.worker.send(Command::Gather(spot));
     }
 
     /// Tells the solver thread what is on show, if that is another view, camera or size than in the last frame.

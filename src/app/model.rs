@@ -113,6 +113,17 @@ impl Model<'_> {
         }
     }
 
+    /// Whether the view waits for the person. What comes by itself in a moment is no news: a message would come and go,
+    /// and change the size of the picture each time.
+    pub fn is_stuck(&self) -> bool {
+        let has_light = match self.light() {
+            Some(LightKind::Radiosity) => self.solution.is_some(),
+            Some(LightKind::Photons) => self.photons.is_some_and(|photons| !photons.photons.is_empty()),
+            None => true,
+        };
+        self.subject() == Subject::Radiosity || !(has_light || self.is_running())
+    }
+
     /// How much of the matrix is built, in [0, 1], while it is.
     pub fn preparation(&self) -> Option<f32> {
         let solution = self.solution.filter(|_| self.light() == Some(LightKind::Radiosity));

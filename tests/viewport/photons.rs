@@ -3,7 +3,7 @@
 use crate::{SIZE, build, frame, gpu, on_plane, pixel, pixels, plane_scene, square};
 use glam::{Vec2, Vec3};
 use lightwell::math::rgb::Rgb;
-use lightwell::mesh::side_index;
+use lightwell::mesh::{Patch, side_index};
 use lightwell::scene::{Material, Polygon, Scene};
 use lightwell::solution::{Gathered, Path, Photon, PhotonSolution, PhotonTrail, Scattering, Split, TrailPlace};
 use lightwell::viewport::{Frame, Light, PhotonColour, PhotonLook, Picture, View, render_picture};
@@ -44,17 +44,16 @@ fn of_colour(picture: &Picture, colour: Rgb) -> Vec<(u32, u32)> {
     pixels().filter(is_colour).collect()
 }
 
-/// A second square of half the size before the first, at z = 0.5. Behind both something is dark: where all surfaces glow,
-/// they would be turned to face each other.
+/// A dark square as large as that of [`square`] with a smaller one before it, at z = 0.5, lit from above.
 fn with_a_screen() -> Arc<World> {
     let mut scene: Scene = plane_scene(&[0, 1, 2, 3], 1.0, Vec3::ZERO);
     let corners = [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)];
     scene.positions.extend(corners.map(|(x, y)| Vec3::new(x, y, 0.5)));
-    scene.polygons.push(Polygon::new(&[4, 5, 6, 7], 0, 0, 0));
-    let behind: Vec<Vec3> = scene.positions[..4].iter().map(|&corner| corner + Vec3::NEG_Z).collect();
-    scene.positions.extend(behind);
+    let above = [(-1.0, 0.0), (1.0, 0.0), (1.0, 1.5), (-1.0, 1.5)];
+    scene.positions.extend(above.map(|(x, z)| Vec3::new(x, 1.0, z)));
     scene.materials.push(Material::grey("dark"));
-    scene.polygons.push(Polygon::new(&[8, 9, 10, 11], 1, 0, 0));
+    let squares: [(&[u32], u32); 3] = [(&[0, 1, 2, 3], 1), (&[4, 5, 6, 7], 1), (&[8, 9, 10, 11], 0)];
+    scene.polygons = squares.map(|(corners, material)| Polygon::new(corners, material, 0, 0)).into();
     build(scene, 0.5)
 }
 
@@ -76,20 +75,27 @@ fn a_photon_is_seen_where_it_landed() {
     assert!(dark[3] == 1.0 && dark[0] < 0.1, "{dark:?} is no dark surface");
 }
 
+/// How many pixels show a photon on the first polygon, on its side towards the camera or on the other.
+fn pixels_of_photon(world: &Arc<World>, at: Vec3, is_towards_camera: bool) -> Option<usize> {
+    // Emitters may have been turned.
+    let is_side = |patch: &&Patch| patch.polygon == 0 && patch.normal.z > 0.0;
+    let front = world.mesh.patches.iter().find(is_side).expect("the side towards the camera").is_front;
+    let side = side_index(0, front == is_towards_camera) as u32;
+    let frame = Frame { photons: large(), ..frame(world, View::Photons) };
+    let picture = draw(world, &light(vec![Photon { side, ..photon(at) }]), &frame)?;
+    Some(of_colour(&picture, Rgb::new(1.0, 0.5, 0.25)).len())
+}
+
 #[test]
 fn what_hides_a_surface_hides_its_photons() {
     let (open, closed) = (square(), with_a_screen());
-    let photons = light(vec![photon(Vec3::new(0.1, 0.1, 0.0))]);
-    let shown = |world: &Arc<World>, light: &Light| {
-        let frame = Frame { photons: large(), ..frame(world, View::Photons) };
-        Some(of_colour(&draw(world, light, &frame)?, Rgb::new(1.0, 0.5, 0.25)).len())
-    };
-    let Some(seen) = shown(&open, &photons) else { return };
+    let (behind, beside) = (Vec3::new(0.1, 0.1, 0.0), Vec3::new(0.8, 0.8, 0.0));
+    let Some(seen) = pixels_of_photon(&open, behind, true) else { return };
     assert!(seen > 20);
-    assert_eq!(shown(&closed, &photons), Some(0), "the screen stands before it");
-    // A surface without thickness: the square before it is drawn nearer, but less far in front than it is drawn.
-    let behind = light(vec![Photon { side: side_index(0, false) as u32, ..photon(Vec3::new(0.1, 0.1, 0.0)) }]);
-    assert_eq!(shown(&open, &behind), Some(0), "it landed on the back");
+    assert!(pixels_of_photon(&closed, beside, true) > Some(20), "the screen is not before it");
+    assert_eq!(pixels_of_photon(&closed, behind, true), Some(0), "the screen stands before it");
+    // A surface without thickness: a photon on its back is drawn nearer than it by more than they are apart.
+    assert_eq!(pixels_of_photon(&open, behind, false), Some(0), "it landed on the back");
 }
 
 #[test]

@@ -108,14 +108,29 @@ fn a_pattern_that_is_none_is_said_to_be_none_and_stays() {
 }
 
 #[test]
-fn the_bar_of_photons_changes_how_they_look() {
+fn photons_are_drawn_as_the_side_panel_says() {
     let with = |photons| [Action::SetLook(Look { view: View::Photons, photons, ..Look::default() })];
     let look = PhotonLook::default();
-    assert_eq!(click(photon_stage(), "Ticks"), with(PhotonLook { ticks: true, ..look }));
+    let mut harness = photon_stage().small();
+    harness.get_by_role_and_label(Role::CheckBox, "Ticks").click();
+    harness.run();
+    assert_eq!(harness.state().actions, with(PhotonLook { ticks: true, ..look }));
     assert_eq!(key(photon_stage(), Modifiers::NONE, Key::T), with(PhotonLook { ticks: true, ..look }));
     assert_eq!(click(photon_stage(), "Bounce"), with(PhotonLook { colour: PhotonColour::Bounce, ..look }));
-    assert!(is_shown(showing(View::KdTree), "Depth of the tree") && !is_shown(photon_stage(), "Depth of the tree"));
+    assert!(is_shown(showing(View::KdTree), "Tree depth") && !is_shown(photon_stage(), "Tree depth"));
     assert!(!is_shown(Stage::default(), "Ticks"));
+}
+
+#[test]
+fn a_click_with_shift_picks_a_point_among_photons() {
+    let click = |stage: Stage| {
+        let mut harness = stage.small();
+        harness.get_by_label("Viewport").click_modifiers(Modifiers::SHIFT);
+        harness.run();
+        std::mem::take(&mut harness.state_mut().actions)
+    };
+    assert!(matches!(click(photon_stage())[..], [Action::PickPoint(_)]));
+    assert!(matches!(click(Stage::default())[..], [Action::Pick(_)]));
 }
 
 #[test]
@@ -190,6 +205,10 @@ fn a_view_without_its_light_offers_to_run_it() {
     buttons.into_iter().max_by(|a, b| a.rect().top().total_cmp(&b.rect().top())).expect("a button").click();
     harness.run();
     assert_eq!(harness.state().actions, [Action::Send(Command::Run)]);
+    // A message that comes and goes by itself would change the size of the picture.
+    let message = "The picture from this camera is not there yet";
+    let coming = Stage { missing: Some(message), ..showing(View::Camera(CameraView::RayTraced)) };
+    assert!(!is_shown(coming, message));
 }
 
 #[test]

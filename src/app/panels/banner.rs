@@ -48,7 +48,11 @@ pub fn all<'a>(model: &Model<'a>) -> Vec<Banner<'a>> {
             action: Action::Send(Command::AddCeilingLight),
         }),
     });
-    let missing = model.missing.map(|message| Banner { message, is_error: false, remedy: remedy_for_view(model) });
+    let missing = model.missing.filter(|_| model.is_stuck()).map(|message| Banner {
+        message,
+        is_error: false,
+        remedy: remedy_for_view(model),
+    });
     [crash, error, dark, missing].into_iter().flatten().collect()
 }
 

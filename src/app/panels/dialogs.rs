@@ -155,7 +155,8 @@ fn keys(ui: &mut Ui, actions: &mut Vec<Action>) {
         ("Drag", "Turn around the scene"),
         ("Shift+drag or right drag", "Move sideways"),
         ("Wheel", "Move closer or away"),
-        ("Click", "Pick a patch; beside the scene, forget it"),
+        ("Click", "Pick a patch, or a photon where photons are seen"),
+        ("Shift+click", "Pick a point, to see the photons of its estimate"),
         ("Double click", "Fit the scene into the view"),
     ];
     table(ui, "mouse", mouse.map(|(gesture, purpose)| (gesture.to_owned(), purpose)));

@@ -14,7 +14,7 @@ mod lower;
 mod menu_bar;
 mod notices;
 mod patch;
-mod photon_bar;
+mod photon_look;
 mod picked_photon;
 mod progress;
 mod settings;
@@ -51,10 +51,6 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>, paint: impl F
             let panel = Panel::top("bounces").frame(bar_frame(ui, 6));
             panel.show(ui, |ui| view_bar::bounces(ui, model, actions));
         }
-        if model.look.view.shows_photons() {
-            let panel = Panel::top("photon bar").frame(bar_frame(ui, 6));
-            panel.show(ui, |ui| photon_bar::show(ui, model, actions));
-        }
         lower::show(ui, model, actions);
         for banner in banner::all(model) {
             let panel = Panel::top(("banner", banner.message)).frame(bar_frame(ui, 8));
@@ -66,7 +62,7 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>, paint: impl F
         }
         let classes = model.look.photons.colour.classes();
         if model.look.view.shows_photons() && !classes.is_empty() {
-            photon_bar::legend(ui, area, model.look.photons.colour.label(), &classes);
+            photon_look::legend(ui, area, model.look.photons.colour.label(), &classes);
         }
         notices::show(ui, area, model, actions);
     });
@@ -90,6 +86,9 @@ fn side_panel(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
                 ViewGroup::Radiosity => patch::show(ui, model, actions),
                 ViewGroup::PhotonMap => picked_photon::show(ui, model, actions),
                 ViewGroup::Rays => {}
+            }
+            if model.look.view.shows_photons() {
+                widgets::section(ui, "Photons on show", |ui| photon_look::show(ui, model, actions));
             }
             widgets::section(ui, "Exposure", |ui| exposure::show(ui, model, actions));
             widgets::section(ui, "Settings", |ui| settings::show(ui, model, actions));

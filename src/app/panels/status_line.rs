@@ -55,8 +55,8 @@ fn image(ui: &mut Ui, image: &CameraImage) {
 
 fn photons(ui: &mut Ui, photons: &PhotonSolution, is_short: bool) {
     let counters = &photons.counters;
-    let emitted = format::short((counters.emitted + counters.caustic_emitted) as f64, "photons");
-    item(ui, emitted, "Photons that have left the emitters in this pass");
+    let emitted = format::short((counters.emitted + counters.caustic_emitted) as f64, "");
+    item(ui, format!("{emitted} photons"), "Photons that have left the emitters in this pass");
     item(ui, format::duration(photons.elapsed), "Time spent on photons; drawing and waiting do not count");
     if is_short {
         return;

@@ -3,6 +3,7 @@
 use crate::app::action::{Action, CameraMove};
 use crate::app::model::Model;
 use crate::app::theme::UNIT;
+use crate::app::views::ViewGroup;
 use crate::scene::BUILTINS;
 use crate::worker::Phase;
 use egui::accesskit::Role;
@@ -23,6 +24,7 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>, paint: impl F
     if model.scene.is_some() {
         paint(ui, rect);
         camera(ui, &response, actions);
+        pick(ui, model, &response, actions);
     } else if *model.phase == Phase::Empty {
         invitation(ui, rect, actions);
     }
@@ -39,9 +41,6 @@ fn camera(ui: &Ui, response: &Response, actions: &mut Vec<Action>) {
         let pans = ui.input(|input| input.modifiers.shift) || !response.dragged_by(PointerButton::Primary);
         actions.push(Action::Camera(if pans { CameraMove::Pan(drag) } else { CameraMove::Orbit(drag) }));
     }
-    if let Some(position) = response.interact_pointer_pos().filter(|_| response.clicked_by(PointerButton::Primary)) {
-        actions.push(Action::Pick((position - response.rect.min) / response.rect.size()));
-    }
     if response.double_clicked_by(PointerButton::Primary) {
         actions.push(Action::Camera(CameraMove::Fit));
     }
@@ -51,6 +50,15 @@ fn camera(ui: &Ui, response: &Response, actions: &mut Vec<Action>) {
             actions.push(Action::Camera(CameraMove::Zoom(factor)));
         }
     }
+}
+
+fn pick(ui: &Ui, model: &Model, response: &Response, actions: &mut Vec<Action>) {
+    let clicked = response.interact_pointer_pos().filter(|_| response.clicked_by(PointerButton::Primary));
+    let Some(position) = clicked else { return };
+    let at = (position - response.rect.min) / response.rect.size();
+    let shift = ui.input(|input| input.modifiers.shift);
+    let is_point = shift && ViewGroup::of(model.look.view) == ViewGroup::PhotonMap;
+    actions.push(if is_point { Action::PickPoint(at) } else { Action::Pick(at) });
 }
 
 /// What there is to do before a scene is open.

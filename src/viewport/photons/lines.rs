@@ -16,6 +16,8 @@ const WAY_WIDTH: f32 = 2.5;
 /// Sides of the polygon that is drawn for a disc.
 const DISC_SIDES: u32 = 64;
 const DISC: Rgb = Rgb::new(1.0, 0.8, 0.1);
+/// How far down the map of colours the deepest planes are: what is darker is lost before dark surfaces.
+const FADE: f32 = 0.7;
 /// Length of the last piece of a way into the void, in radii of the scene.
 const ESCAPE: f32 = 1.0;
 
@@ -44,7 +46,7 @@ pub fn of_tree(splits: &[Split], depth: u8, units: &Units) -> Vec<LineRecord> {
 
 /// The colour of planes that divide cells of a depth, where the deepest have another: the root is the brightest.
 pub fn of_depth(depth: u8, deepest: u8) -> Rgb {
-    colour(1.0 - f32::from(depth) / f32::from(deepest.max(1)))
+    colour(1.0 - FADE * f32::from(depth) / f32::from(deepest.max(1)))
 }
 
 /// Where the plane cuts its cell.

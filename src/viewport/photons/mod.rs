@@ -21,7 +21,7 @@ use wgpu::BufferUsages;
 /// Length of a tick as a share of the scene's radius.
 const TICK: f32 = 0.03;
 /// Marks are wider than photons by this much, pixels.
-const MARK_WIDER: f32 = 4.0;
+const MARK_WIDER: f32 = 2.0;
 /// Threads of a group of splat.wgsl, each for a photon.
 const SPLATS: usize = 256;
 
@@ -150,8 +150,8 @@ impl PhotonLayer {
             let tree = [&self.frame, self.tree.buffer()];
             draw(&pipelines.lines, &pipelines.line_layout, &tree, 6 * self.tree.len());
         }
-        draw(&pipelines.ways, &pipelines.line_layout, &[&self.frame, self.ways.buffer()], 6 * self.ways.len());
         let marks = [&self.frame, larger, self.marks.buffer()];
         draw(&pipelines.marks, &pipelines.mark_layout, &marks, 6 * self.marks.len());
+        draw(&pipelines.ways, &pipelines.line_layout, &[&self.frame, self.ways.buffer()], 6 * self.ways.len());
     }
 }

@@ -6,7 +6,7 @@ use crate::app::panels::widgets::row;
 use crate::app::theme::{Palette, UNIT};
 use crate::methods::{ImageSettings, Settings};
 use crate::solution::PathFilter;
-use egui::{RichText, TextEdit, Ui};
+use egui::{Button, RichText, TextEdit, Ui};
 
 /// Patterns to begin with, and what they let pass.
 const EXAMPLES: [(&str, &str); 3] = [
@@ -39,7 +39,7 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
         ui.spacing_mut().item_spacing.x = UNIT;
         for (pattern, meaning) in EXAMPLES {
             let is_chosen = in_force.as_str() == pattern;
-            if ui.selectable_label(is_chosen, pattern).on_hover_text(meaning).clicked() {
+            if ui.add(Button::new(pattern).selected(is_chosen)).on_hover_text(meaning).clicked() {
                 enter(if is_chosen { "" } else { pattern }, settings, actions);
             }
         }
