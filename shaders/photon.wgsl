@@ -24,6 +24,8 @@ struct Points {
     tick: f32,
     // Of photons.
     count: u32,
+    // One photon of so many is drawn.
+    stride: u32,
 }
 
 // Marks a square's pixels among those of ticks.

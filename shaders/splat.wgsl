@@ -15,7 +15,7 @@ const LONGEST_TICK = 256.0;
 
 @compute @workgroup_size(256)
 fn splat(@builtin(global_invocation_id) id: vec3<u32>) {
-    if id.x >= points.count {
+    if id.x >= points.count || id.x % points.stride != 0u {
         return;
     }
     let photon = photons[id.x];

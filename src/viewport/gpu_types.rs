@@ -63,7 +63,8 @@ pub struct PointsUniform {
     /// Unit coordinates.
     pub tick: f32,
     pub count: u32,
-    pub padding: [u32; 2],
+    pub stride: u32,
+    pub padding: u32,
 }
 
 /// `Line` of shaders/lines.wgsl.

@@ -21,6 +21,9 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
         let write = |size: f64| format::decimal(size.round(), 0, "px");
         slider(ui, &mut wanted.size, range, false, write, |text| format::parse(text, "px"))
     });
+    let hover = "Draws one photon of so many that there are gaps between them";
+    let response = row(ui, "Thinned", hover, |ui, _| ui.add(Checkbox::new(&mut wanted.thinned, thinning(model))));
+    response.accessible_name("Thinned").on_hover_text(hover);
     let hover = "Short lines that point to where each photon came from (T)";
     let response = row(ui, "Ticks", hover, |ui, _| ui.add(Checkbox::new(&mut wanted.ticks, "Where they came from")));
     response.accessible_name("Ticks").on_hover_text(hover);
@@ -35,6 +38,16 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     if wanted != look {
         let photons = PhotonLook { size: wanted.size.round(), ..wanted };
         actions.push(Action::SetLook(Look { photons, ..model.look }));
+    }
+}
+
+/// How many of the photons are drawn, if they are thinned out.
+fn thinning(model: &Model) -> String {
+    let photons = model.photons.map_or(0, |photons| photons.photons.len());
+    let thinned = PhotonLook { thinned: true, ..model.look.photons };
+    match thinned.stride(u32::try_from(photons).unwrap_or(u32::MAX), model.viewport_size) {
+        1 => "All are drawn".to_owned(),
+        stride => format!("One of {} is drawn", format::count(stride.into())),
     }
 }
 

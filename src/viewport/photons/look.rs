@@ -11,6 +11,8 @@ pub struct PhotonLook {
     pub colour: PhotonColour,
     /// Width of a photon, pixels.
     pub size: f32,
+    /// Whether only so many are drawn that there are gaps between them: of a million there is nothing to see but their crowd.
+    pub thinned: bool,
     /// Whether a tick at each photon points to where it came from.
     pub ticks: bool,
     /// How deep into the tree [`crate::viewport::View::KdTree`] shows its planes; the root is at 0.
@@ -21,11 +23,19 @@ impl PhotonLook {
     /// The widest, pixels.
     pub const MAX_SIZE: f32 = 12.0;
     pub const MAX_DEPTH: u8 = 16;
+    /// Pixels of the picture for each photon that is drawn, where they are thinned out.
+    const PIXELS_EACH: u32 = 12;
+
+    /// One photon of so many is drawn in a picture of this size, of a `count` in all.
+    pub fn stride(&self, count: u32, size: [u32; 2]) -> u32 {
+        let room = (size[0].saturating_mul(size[1]) / Self::PIXELS_EACH).max(1);
+        if self.thinned { count.div_ceil(room).max(1) } else { 1 }
+    }
 }
 
 impl Default for PhotonLook {
     fn default() -> Self {
-        Self { colour: PhotonColour::default(), size: 2.0, ticks: false, depth: 5 }
+        Self { colour: PhotonColour::default(), size: 2.0, thinned: true, ticks: false, depth: 5 }
     }
 }
 

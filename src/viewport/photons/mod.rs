@@ -96,7 +96,8 @@ impl PhotonLayer {
             size: look.size,
             tick: if look.ticks { TICK } else { 0.0 },
             count: self.cloud.records().len(),
-            padding: [0; 2],
+            stride: look.stride(self.cloud.records().len(), frame.size),
+            padding: 0,
         };
         let marks = PointsUniform { size: photons.size + MARK_WIDER, ..photons };
         for (buffer, uniform) in self.points.iter().zip([photons, marks]) {
