@@ -1,7 +1,7 @@
 //! From radiance to what a screen can show.
 
 use crate::choice::Choice;
-use crate::math::rgb::{Rgb64, luminance};
+use crate::math::rgb::{Rgb, Rgb64, luminance};
 use crate::solution::Solution;
 use crate::world::World;
 use std::f64::consts::PI;
@@ -83,6 +83,10 @@ fn expected_radiosity(world: &World, solution: Option<&Solution>) -> Rgb64 {
     let mut bright = Surfaces::default();
     for patch in &world.mesh.patches {
         let material = &world.scene.materials[patch.material as usize];
+        if material.diffuse == Rgb::ZERO && material.lobes().is_specular() && !material.is_emitter() {
+            // A mirror, or glass: as bright as what is seen in it.
+            continue;
+        }
         let surfaces = if material.is_emitter() { &mut bright } else { &mut dark };
         surfaces.area += patch.area;
         surfaces.reflecting += patch.area * material.diffuse.as_dvec3();
