@@ -4,7 +4,7 @@ use super::{at, meet, open, run_to_end, settings};
 use glam::Vec3A;
 use lightwell::methods::photon_map::{Scratch, Which};
 use lightwell::methods::{Kernel, PhotonSettings, Settings};
-use lightwell::solution::{Path, PathFilter};
+use lightwell::solution::{Path, PathFilter, Scattering};
 use rayon::ThreadPoolBuilder;
 use std::sync::Arc;
 
@@ -65,8 +65,8 @@ fn light_is_the_sum_of_its_kinds() {
     let maps = run_to_end(&transport, photons).maps();
     let mut scratch = Scratch::default();
     let filter = |pattern: &str| {
-        let filter: PathFilter = pattern.parse().unwrap();
-        maps.filter(&filter.matcher(), Path::LIGHT)
+        let matcher = pattern.parse::<PathFilter>().unwrap().matcher();
+        maps.filter(|path| matcher.passes(path, Some(Scattering::Diffuse), Path::LIGHT))
     };
     let (direct, second, all) = (filter("LDE"), filter("LDDE"), filter(""));
     for place in [Vec3A::new(0.4, 0.0, 0.1), Vec3A::new(0.53, 0.0, 0.3)] {
