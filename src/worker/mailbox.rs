@@ -221,7 +221,8 @@ mod tests {
     fn the_newest_look_wins_and_commands_stay_with_the_light_that_they_are_about() {
         let (photons, radiosity) = (look(Subject::Photons, 1.0), look(Subject::Radiosity, 1.0));
         let moved = look(Subject::Radiosity, 2.0);
-        assert_eq!(merged([photons.clone(), radiosity.clone(), moved.clone()]), [moved.clone()]);
+        let last = merged([photons.clone(), radiosity.clone(), moved.clone()]);
+        assert_eq!(last, std::slice::from_ref(&moved));
         let both = [photons.clone(), Command::Run, moved.clone(), Command::Pause];
         assert_eq!(
             merged([photons.clone(), Command::Run, radiosity, moved.clone(), Command::Run, Command::Pause]),

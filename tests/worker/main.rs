@@ -6,6 +6,7 @@ mod interruption;
 mod lights;
 mod pictures;
 mod publishing;
+mod real;
 mod trouble;
 
 use glam::Vec3;

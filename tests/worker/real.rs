@@ -1,0 +1,132 @@
+//! The program's own methods on the thread: all views of one scene.
+
+use crate::{load, median, steps, wait_for};
+use glam::Vec3;
+use lightwell::camera::Camera;
+use lightwell::choice::Choice;
+use lightwell::methods::{ImageSettings, PhotonSettings, Settings};
+use lightwell::solution::{CameraImage, CameraView};
+use lightwell::worker::{Command, Phase, Sight, Snapshot, Spot, Subject, Worker};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// From a camera that moved a little for each `place`.
+fn look(worker: &Worker, subject: Subject, place: u32, size: [u32; 2]) -> Camera {
+    let world = worker.latest().world.clone().expect("a world");
+    let mut camera = Camera::new(&world.viewpoint, &world.bounds);
+    camera.orbit(0.001 * place as f32, 0.0);
+    worker.send(Command::Look(Sight { subject, camera, size }));
+    camera
+}
+
+fn image_of(snapshot: &Snapshot, view: CameraView) -> Option<&CameraImage> {
+    snapshot.image.as_deref().filter(|image| image.view == view)
+}
+
+fn brightness(image: &CameraImage) -> f32 {
+    image.radiance.iter().map(|radiance| radiance.element_sum()).sum::<f32>() / image.radiance.len() as f32
+}
+
+/// The Cornell box with some light of both kinds, at rest.
+fn lit() -> (Worker, Arc<Snapshot>) {
+    let worker = Worker::spawn(|| ());
+    let photons = PhotonSettings { count: 50_000, caustic_count: 1_000, ..PhotonSettings::default() };
+    let image = ImageSettings { samples: 2, gather_rays: 8, ..ImageSettings::default() };
+    worker.send(Command::Configure(Settings { photons, image, ..crate::with_elements(0.1) }));
+    load(&worker, "cornell-box");
+    worker.send(Command::Step(30));
+    wait_for(&worker, "stepped", |now| steps(now) == 30 && now.phase == Phase::Paused);
+    look(&worker, Subject::Photons, 0, [64, 48]);
+    worker.send(Command::Run);
+    let lit = wait_for(&worker, "traced", |now| now.phase == Phase::Converged && now.photons.is_some());
+    (worker, lit)
+}
+
+#[test]
+fn every_view_of_a_scene_is_made_from_the_same_light() {
+    let (worker, lit) = lit();
+    let photons = lit.photons.as_ref().expect("photons");
+    assert!(photons.is_complete && photons.counters.emitted == 50_000);
+    for &view in CameraView::ALL {
+        look(&worker, Subject::Camera(view), 0, [64, 48]);
+        let end = wait_for(&worker, "finished", |now| image_of(now, view).is_some_and(|image| image.is_complete));
+        let image = image_of(&end, view).expect("an image");
+        assert_eq!((image.samples, image.resolution, image.size), (2, [64, 48], [64, 48]));
+        // Where there are no caustics there is still the lamp.
+        assert!(brightness(image) > 0.0, "{view:?}");
+    }
+    let end = worker.latest();
+    assert!(Arc::ptr_eq(end.photons.as_ref().expect("photons"), photons) && steps(&end) == 30);
+}
+
+#[test]
+fn the_first_coarse_picture_is_there_at_once() {
+    let (worker, _) = lit();
+    for &view in CameraView::ALL {
+        let times = (1..=5).map(|place| {
+            let start = Instant::now();
+            let camera = look(&worker, Subject::Camera(view), place, [640, 480]);
+            wait_for(&worker, "seen", |now| image_of(now, view).is_some_and(|image| image.camera == camera));
+            start.elapsed()
+        });
+        let time = median(times.collect());
+        println!("{}: {time:?}", view.name());
+        // The promise to the person, with room for a machine that is busy otherwise.
+        assert!(time < 3 * Duration::from_millis(100), "{view:?}: {time:?}");
+    }
+}
+
+#[test]
+fn photons_and_estimates_are_looked_into() {
+    let (worker, lit) = lit();
+    let photons = lit.photons.as_ref().expect("photons");
+    let bounced =
+        photons.photons.iter().position(|photon| photon.path.len() == 2).expect("a photon that bounced twice");
+    worker.send(Command::PickPhoton(Some(bounced as u32)));
+    let picked = wait_for(&worker, "picked", |now| now.trail.is_some());
+    let places = &picked.trail.as_ref().expect("a trail").places;
+    // It comes by where it was stored: the third surface, after the emitter.
+    assert!(places[3].point.distance(photons.photons[bounced].position) < 1e-4, "{places:?}");
+    let floor = Spot { point: Vec3::new(0.28, 0.0, 0.28), normal: Vec3::Y };
+    worker.send(Command::Gather(Some(floor)));
+    let gathered = wait_for(&worker, "gathered", |now| now.gathered.is_some());
+    let gathered = gathered.gathered.as_ref().expect("an estimate");
+    let is_near = |&index: &u32| photons.photons[index as usize].position.distance(floor.point) <= gathered.radius;
+    assert!(gathered.used.len() > 50 && gathered.used.iter().all(is_near));
+}
+
+#[test]
+fn progressive_passes_are_averaged() {
+    let (worker, lit) = lit();
+    let photons = PhotonSettings { count: 5_000, is_progressive: true, passes: 4, ..lit.settings.photons };
+    worker.send(Command::Configure(Settings { photons, ..lit.settings }));
+    look(&worker, Subject::Camera(CameraView::PhotonRadiance), 0, [64, 48]);
+    worker.send(Command::Run);
+    let end = wait_for(&worker, "finished", |now| {
+        now.phase == Phase::Converged
+            && image_of(now, CameraView::PhotonRadiance).is_some_and(|image| image.is_complete)
+    });
+    assert_eq!(end.photons.as_ref().map(|photons| photons.passes), Some(4));
+    assert_eq!(image_of(&end, CameraView::PhotonRadiance).map(|image| image.samples), Some(4));
+}
+
+#[test]
+fn more_photons_than_there_is_memory_are_refused() {
+    let (worker, lit) = lit();
+    // Fifty million photons that land some three times each take tens of gigabytes; where a machine has that much, the
+    // arithmetic of it is all that can be looked at.
+    let photons = PhotonSettings {
+        count: PhotonSettings::MAX_COUNT,
+        caustic_count: PhotonSettings::MAX_COUNT,
+        ..lit.settings.photons
+    };
+    worker.send(Command::Configure(Settings { photons, ..lit.settings }));
+    let after = wait_for(&worker, "answered", |now| now.error.is_some() || now.settings.photons == photons);
+    match &after.error {
+        Some(error) => {
+            assert!(error.contains("photons") && error.contains("MiB"), "{error}");
+            assert_eq!(after.settings, lit.settings);
+        }
+        None => println!("this machine has the memory"),
+    }
+}
