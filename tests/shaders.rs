@@ -67,6 +67,6 @@ fn structs_have_the_layout_of_their_shaders() {
     assert_eq!(layout(&parse("present"), "Display"), mirror!(DisplayUniform, outline, exposure, tone, encode, span));
     let photon = mirror!(PhotonRecord, x, y, z, colour, normal, direction);
     assert_eq!(layout(&parse("splat"), "Photon"), photon);
-    assert_eq!(layout(&parse("splat"), "Points"), mirror!(PointsUniform, eye, size, tick, count));
+    assert_eq!(layout(&parse("splat"), "Points"), mirror!(PointsUniform, eye, size, tick, count, stride));
     assert_eq!(layout(&parse("lines"), "Line"), mirror!(LineRecord, start, width, end, colour));
 }

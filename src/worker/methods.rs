@@ -126,6 +126,10 @@ impl PhotonMethod for TracedPhotons {
 }
 
 impl ImageMethod for ImageRun {
+    fn moved_to(&self, shot: &CameraShot) -> Self {
+        Self::moved_to(self, shot.camera, shot.size)
+    }
+
     fn step(&mut self, cancel: &Cancel) -> Step {
         Self::step(self, cancel)
     }

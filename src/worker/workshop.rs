@@ -82,7 +82,11 @@ pub trait PhotonMethod: Send {
 }
 
 /// A picture in the making.
-pub trait ImageMethod: Send {
+pub trait ImageMethod: Send + Sized {
+    /// The same view of the same light from elsewhere, before its first step: cheaper than one from [`Workshop::image`].
+    #[must_use]
+    fn moved_to(&self, shot: &CameraShot) -> Self;
+
     /// Does one bounded piece of work, all of it or nothing.
     fn step(&mut self, cancel: &Cancel) -> Step;
 

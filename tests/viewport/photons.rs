@@ -58,6 +58,16 @@ fn with_a_screen() -> Arc<World> {
 }
 
 #[test]
+fn photons_are_thinned_out_until_there_are_gaps() {
+    let look = PhotonLook::default();
+    // A picture of 120 x 100 has room for a thousand, each on 12 pixels.
+    let size = [120, 100];
+    assert_eq!([0, 1, 1000, 1001, 10_000].map(|count| look.stride(count, size)), [1, 1, 1, 2, 10]);
+    assert_eq!(look.stride(10, [1, 1]), 10);
+    assert_eq!(PhotonLook { thinned: false, ..look }.stride(1 << 20, size), 1);
+}
+
+#[test]
 fn a_photon_is_seen_where_it_landed() {
     let world = square();
     let place = Vec2::new(0.4, -0.3);

@@ -3,7 +3,7 @@
 use glam::Vec3A;
 use lightwell::cancel::Cancel;
 use lightwell::math::rgb::Rgb;
-use lightwell::methods::{Method, Settings, Step};
+use lightwell::methods::{Method, PhotonSettings, Settings, Step};
 use lightwell::solution::{
     CameraImage, ElementLight, Gathered, Path, Photon, PhotonSolution, PhotonTrail, Solution, TrailPlace,
 };
@@ -31,6 +31,8 @@ pub struct Counts {
     pub radiosity_starts: AtomicU64,
     pub photon_starts: AtomicU64,
     pub image_starts: AtomicU64,
+    /// Images that were begun with the light of another one.
+    pub image_moves: AtomicU64,
     pub radiosity_steps: AtomicU64,
     pub photon_steps: AtomicU64,
     pub image_steps: AtomicU64,
@@ -191,7 +193,9 @@ impl PhotonMethod for FakePhotons {
     }
 
     fn configure(&mut self, settings: &Settings) -> bool {
-        let is_same = self.settings.seed == settings.seed && self.settings.photons == settings.photons;
+        // As photons are that are read off in another way.
+        let photons = PhotonSettings { kernel: settings.photons.kernel, ..self.settings.photons };
+        let is_same = self.settings.seed == settings.seed && photons == settings.photons;
         if is_same {
             self.settings = *settings;
         }
@@ -240,6 +244,12 @@ pub struct FakeImage {
 }
 
 impl ImageMethod for FakeImage {
+    fn moved_to(&self, shot: &CameraShot) -> Self {
+        self.counts.image_moves.fetch_add(1, Ordering::SeqCst);
+        let (work, counts) = (self.work.clone(), self.counts.clone());
+        Self { work, counts, shot: *shot, steps: 0, ..*self }
+    }
+
     fn step(&mut self, cancel: &Cancel) -> Step {
         let step = (self.work)(self.steps, cancel);
         Counts::add(&self.counts.image_steps, step, Step::Advanced);

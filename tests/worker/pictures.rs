@@ -2,7 +2,7 @@
 
 use crate::fake::{self, BATCHES, Counts, Fakes};
 use crate::{load, look, look_from, median, steps, wait_for, wait_until};
-use lightwell::methods::{ImageSettings, PhotonSettings, Settings, Step};
+use lightwell::methods::{ImageSettings, Kernel, PhotonSettings, Settings, Step};
 use lightwell::solution::{CameraImage, CameraView};
 use lightwell::worker::{Command, Phase, Snapshot, Subject, Worker};
 use std::sync::Arc;
@@ -79,7 +79,7 @@ fn another_size_starts_the_picture_anew_and_an_empty_one_is_none() {
     finished(&worker, CameraView::RayTraced);
     worker.send(Command::Look(lightwell::worker::Sight { size: [20, 10], ..sight }));
     wait_for(&worker, "finished", |now| image(now).is_some_and(|image| image.size == [20, 10] && image.is_complete));
-    assert_eq!(Counts::of(&counts.image_starts), 2);
+    assert_eq!([&counts.image_starts, &counts.image_moves].map(Counts::of), [1, 1]);
 }
 
 #[test]
@@ -100,7 +100,55 @@ fn a_view_that_was_looked_at_from_here_before_is_there_at_once() {
     assert_eq!((Counts::of(&counts.image_steps), Counts::of(&counts.image_starts)), (steps, 2));
     // From elsewhere nothing of it is of use.
     look_from(&worker, RAYS, 9.0);
-    wait_until("anew", || Counts::of(&counts.image_starts) == 3);
+    wait_until("anew", || Counts::of(&counts.image_moves) == 1);
+}
+
+#[test]
+fn a_camera_that_moves_looks_at_the_same_light() {
+    let (worker, counts) = Fakes::default().spawn();
+    load(&worker, "furnace");
+    let made_of = |now: &Snapshot| image(now).filter(|image| image.is_complete).map(|image| image.rays);
+    let look = |subject, distance| {
+        look_from(&worker, subject, distance);
+        let camera = crate::sight(subject, distance).camera;
+        let is_it = |image: &CameraImage| image.camera == camera && Subject::Camera(image.view) == subject;
+        wait_for(&worker, "finished", |now| made_of(now).is_some() && image(now).is_some_and(is_it))
+    };
+    let counted = || [&counts.image_starts, &counts.image_moves].map(Counts::of);
+    worker.send(Command::Look(crate::sight(Subject::Photons, 1.0)));
+    worker.send(Command::Step(2));
+    wait_for(&worker, "traced", |now| now.photons.as_ref().is_some_and(|photons| photons.batches == 2));
+    assert_eq!(made_of(&look(GATHER, 1.0)), Some(2));
+    look(RAYS, 1.0);
+    look(GATHER, 2.0);
+    look(RAYS, 2.0);
+    assert_eq!(counted(), [2, 2]);
+    // More light is another light.
+    look(GATHER, 2.0);
+    worker.send(Command::Step(1));
+    wait_for(&worker, "anew", |now| made_of(now) == Some(3));
+    look(GATHER, 3.0);
+    assert_eq!(counted(), [3, 3]);
+}
+
+#[test]
+fn photons_that_are_read_off_in_another_way_give_another_picture() {
+    let (worker, counts) = Fakes::default().spawn();
+    let loaded = load(&worker, "furnace");
+    look(&worker, RAYS);
+    finished(&worker, CameraView::RayTraced);
+    look(&worker, GATHER);
+    worker.send(Command::Step(2));
+    wait_for(&worker, "traced", |now| image(now).is_some_and(|image| image.rays == 2 && image.is_complete));
+    let starts = Counts::of(&counts.image_starts);
+    let photons = PhotonSettings { kernel: Kernel::Cone, ..loaded.settings.photons };
+    worker.send(Command::Configure(Settings { photons, ..loaded.settings }));
+    wait_until("anew", || Counts::of(&counts.image_starts) == starts + 1);
+    finished(&worker, CameraView::FinalGather);
+    // Rays know nothing of photons.
+    look(&worker, RAYS);
+    finished(&worker, CameraView::RayTraced);
+    assert_eq!((Counts::of(&counts.image_starts), Counts::of(&counts.photon_starts)), (starts + 1, 1));
 }
 
 #[test]

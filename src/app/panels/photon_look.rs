@@ -7,7 +7,7 @@ use crate::app::model::{Look, Model};
 use crate::app::theme::UNIT;
 use crate::choice::Choice;
 use crate::viewport::{ColourClass, PhotonColour, PhotonLook, View};
-use egui::{Checkbox, Frame, Margin, Rect, RichText, Ui, UiBuilder, pos2, vec2};
+use egui::{Frame, Margin, Rect, RichText, Ui, UiBuilder, pos2, vec2};
 
 pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     let look = model.look.photons;
@@ -21,12 +21,11 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
         let write = |size: f64| format::decimal(size.round(), 0, "px");
         slider(ui, &mut wanted.size, range, false, write, |text| format::parse(text, "px"))
     });
-    let hover = "Draws one photon of so many that there are gaps between them";
-    let response = row(ui, "Thinned", hover, |ui, _| ui.add(Checkbox::new(&mut wanted.thinned, thinning(model))));
-    response.accessible_name("Thinned").on_hover_text(hover);
-    let hover = "Short lines that point to where each photon came from (T)";
-    let response = row(ui, "Ticks", hover, |ui, _| ui.add(Checkbox::new(&mut wanted.ticks, "Where they came from")));
-    response.accessible_name("Ticks").on_hover_text(hover);
+    row(ui, "Draw", "Which photons, and what of them", |ui, _| {
+        ui.checkbox(&mut wanted.thinned, "Fewer").on_hover_text(thinning(model));
+        let hover = "Short lines that point to where each photon came from (T)";
+        ui.checkbox(&mut wanted.ticks, "Ticks").on_hover_text(hover);
+    });
     if model.look.view == View::KdTree {
         let hover = "How often the planes on show have divided the photons; the first one is the brightest";
         labelled(ui, "Tree depth", hover, |ui| {
@@ -41,14 +40,12 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     }
 }
 
-/// How many of the photons are drawn, if they are thinned out.
+/// How many of the photons are drawn, if there are to be fewer.
 fn thinning(model: &Model) -> String {
     let photons = model.photons.map_or(0, |photons| photons.photons.len());
     let thinned = PhotonLook { thinned: true, ..model.look.photons };
-    match thinned.stride(u32::try_from(photons).unwrap_or(u32::MAX), model.viewport_size) {
-        1 => "All are drawn".to_owned(),
-        stride => format!("One of {} is drawn", format::count(stride.into())),
-    }
+    let stride = thinned.stride(u32::try_from(photons).unwrap_or(u32::MAX), model.viewport_size);
+    format!("Draws one photon of {}, so that there are gaps between them", format::count(stride.into()))
 }
 
 fn colours(ui: &mut Ui, chosen: PhotonColour) -> Option<PhotonColour> {

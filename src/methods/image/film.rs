@@ -10,7 +10,7 @@ use glam::Vec2;
 use rayon::prelude::*;
 
 /// Pixels along the edge of a cell, in the passes that come before the first whole one.
-const COARSE_CELLS: [u32; 3] = [8, 4, 2];
+const COARSE_CELLS: [u32; 4] = [16, 8, 4, 2];
 /// Pixels along the edge of a tile, which one thread works on.
 const TILE: u32 = 32;
 /// Tiles of a step.
@@ -71,6 +71,10 @@ impl Film {
             tiles_done: 0,
             rays: 0,
         }
+    }
+
+    pub fn seed(&self) -> u64 {
+        self.seed
     }
 
     /// Whole passes over all pixels that are done.

@@ -76,7 +76,8 @@ pub struct ImageRun {
     camera: Camera,
     size: [u32; 2],
     settings: ImageSettings,
-    path: EyePath,
+    /// What is prepared of the light is shared by all pictures that are made of it.
+    path: Arc<EyePath>,
     film: Film,
 }
 
@@ -94,9 +95,16 @@ impl ImageRun {
             camera,
             size,
             settings: settings.image,
-            path: sources.eye_path(view, &settings.image)?,
+            path: Arc::new(sources.eye_path(view, &settings.image)?),
             film: Film::new(&camera, size, settings.seed),
         })
+    }
+
+    /// The same view of the same light from elsewhere, before its first step.
+    #[must_use]
+    pub fn moved_to(&self, camera: Camera, size: [u32; 2]) -> Self {
+        let film = Film::new(&camera, size, self.film.seed());
+        Self { camera, size, film, path: self.path.clone(), ..*self }
     }
 
     /// Goes on with other light, so that the picture becomes the mean over both: for passes of photons. False, and nothing
@@ -105,7 +113,7 @@ impl ImageRun {
         let path = sources.eye_path(self.view, &self.settings);
         let is_there = path.is_some();
         if let Some(path) = path {
-            self.path = path;
+            self.path = Arc::new(path);
         }
         is_there
     }

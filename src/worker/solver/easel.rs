@@ -9,12 +9,14 @@ use std::time::{Duration, Instant};
 /// All pictures are from the same camera, of the same size, by the same settings.
 pub struct Easel<I> {
     pictures: Vec<Picture<I>>,
+    /// Those from where the camera was before, one for each view: they lend what was prepared of their light.
+    former: Vec<Picture<I>>,
     pub has_crashed: bool,
 }
 
 impl<I> Default for Easel<I> {
     fn default() -> Self {
-        Self { pictures: Vec::new(), has_crashed: false }
+        Self { pictures: Vec::new(), former: Vec::new(), has_crashed: false }
     }
 }
 
@@ -73,13 +75,28 @@ impl<I: ImageMethod> Easel<I> {
     pub fn look(&mut self, shot: &CameraShot) {
         let is_same = |old: &CameraShot| old.camera == shot.camera && old.size == shot.size;
         if !self.pictures.iter().all(|picture| is_same(&picture.shot)) {
-            self.clear();
+            let pictures = std::mem::take(&mut self.pictures);
+            let is_seen = |view| pictures.iter().any(|picture| picture.shot.view == view);
+            self.former.retain(|picture| !is_seen(picture.shot.view));
+            self.former.extend(pictures);
         }
     }
 
     /// Forgets all pictures.
     pub fn clear(&mut self) {
         *self = Self::default();
+    }
+
+    /// Forgets the pictures of some views.
+    pub fn forget(&mut self, is_forgotten: impl Fn(CameraView) -> bool) {
+        self.pictures.retain(|picture| !is_forgotten(picture.shot.view));
+        self.former.retain(|picture| !is_forgotten(picture.shot.view));
+    }
+
+    /// A picture before its first step, by what one from elsewhere knows of the same light, if there is one.
+    pub fn moved_to(&self, shot: &CameraShot, made_of: Amount) -> Option<I> {
+        let has_same_light = |old: &&Picture<I>| old.shot.view == shot.view && old.made_of == made_of;
+        self.former.iter().find(has_same_light).map(|old| old.image.moved_to(shot))
     }
 
     pub fn picture(&self, view: CameraView) -> Option<&Picture<I>> {
@@ -94,7 +111,7 @@ impl<I: ImageMethod> Easel<I> {
     pub fn begin(&mut self, shot: CameraShot, image: I, made_of: Amount) {
         let old = self.picture(shot.view).and_then(|old| old.shown);
         let shown = old.filter(|old| old.made_of.start == made_of.start);
-        self.pictures.retain(|picture| picture.shot.view != shot.view);
+        self.forget(|view| view == shot.view);
         self.pictures.push(Picture { shot, image, made_of, elapsed: Duration::ZERO, shown });
     }
 }

@@ -99,6 +99,9 @@ impl<W: Workshop> Solver<W> {
     }
 
     fn begin_picture(&mut self, shot: CameraShot, amount: Amount) {
+        if let Some(image) = self.easel.moved_to(&shot, amount) {
+            return self.easel.begin(shot, image, amount);
+        }
         let settings = self.snapshot.settings;
         // How many samples it gets is decided from step to step.
         let image = ImageSettings { samples: ImageSettings::MAX_SAMPLES, ..settings.image };

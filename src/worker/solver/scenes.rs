@@ -3,8 +3,9 @@
 use super::Solver;
 use crate::errors::with_causes;
 use crate::mesh::MeshSettings;
-use crate::methods::{ImageSettings, Settings};
+use crate::methods::{ImageSettings, PhotonSettings, Settings};
 use crate::scene::Scene;
+use crate::solution::CameraView;
 use crate::worker::Refused;
 use crate::worker::workshop::Workshop;
 use crate::world::{World, WorldError, with_ceiling_light};
@@ -107,9 +108,12 @@ impl<W: Workshop> Solver<W> {
         Ok(())
     }
 
-    /// Pictures go on where they only get more samples, or fewer.
+    /// Pictures go on where they only get more samples, or fewer. The same photons may be read off in another way.
     fn configure_pictures(&mut self, old: &Settings) {
-        let Settings { image, seed, .. } = self.snapshot.settings;
+        let Settings { image, seed, photons, .. } = self.snapshot.settings;
+        if (PhotonSettings { passes: old.photons.passes, ..photons }) != old.photons {
+            self.easel.forget(CameraView::needs_photons);
+        }
         if seed != old.seed || (ImageSettings { samples: old.image.samples, ..image }) != old.image {
             self.easel.clear();
         }
