@@ -48,7 +48,7 @@ impl<'a> PatchFacts<'a> {
             index: *index,
             material: &material.name,
             area: patch.area,
-            reflectance: material.diffuse,
+            reflectance: material.lobes().diffuse,
             // Only fronts shine.
             exitance: if patch.is_front { material.exitance() } else { Rgb::ZERO },
             light: snapshot.solution.as_deref().map(|solution| PatchLight::of(patch, world, solution)),

@@ -46,9 +46,10 @@ impl Path {
         (0..self.len()).rev().map(event)
     }
 
-    /// Whether every surface that it met was specular, and there was one: what makes a caustic where it lands.
+    /// Whether every surface that it met was specular, and there was one: what makes a caustic where it lands. Of the longest
+    /// paths the beginning is not known: they count as any other light.
     pub fn is_caustic(self) -> bool {
-        !self.is_empty() && self.events().all(|event| event == Scattering::Specular)
+        (1..Self::MAX_EVENTS).contains(&self.len()) && self.events().all(|event| event == Scattering::Specular)
     }
 }
 

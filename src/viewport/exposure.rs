@@ -83,13 +83,14 @@ fn expected_radiosity(world: &World, solution: Option<&Solution>) -> Rgb64 {
     let mut bright = Surfaces::default();
     for patch in &world.mesh.patches {
         let material = &world.scene.materials[patch.material as usize];
-        if material.diffuse == Rgb::ZERO && material.lobes().is_specular() && !material.is_emitter() {
+        let lobes = material.lobes();
+        if lobes.diffuse == Rgb::ZERO && lobes.is_specular() && !material.is_emitter() {
             // A mirror, or glass: as bright as what is seen in it.
             continue;
         }
         let surfaces = if material.is_emitter() { &mut bright } else { &mut dark };
         surfaces.area += patch.area;
-        surfaces.reflecting += patch.area * material.diffuse.as_dvec3();
+        surfaces.reflecting += patch.area * lobes.diffuse.as_dvec3();
         match solution {
             Some(solution) => {
                 for index in patch.elements.start as usize..patch.elements.end as usize {

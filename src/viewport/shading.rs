@@ -96,7 +96,7 @@ fn absorbed(world: &World, solution: &Solution) -> Vec<Rgb> {
 fn reflectance(world: &World) -> impl Iterator<Item = Rgb> {
     let World { mesh, scene, .. } = world;
     let material = |patch: u32| &scene.materials[mesh.patches[patch as usize].material as usize];
-    mesh.elements.iter().map(move |element| material(element.patch).diffuse)
+    mesh.elements.iter().map(move |element| material(element.patch).lobes().diffuse)
 }
 
 /// A grey that tells the sides of things apart, as if a wide light stood above and to one side.

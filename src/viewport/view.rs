@@ -37,7 +37,11 @@ impl View {
     pub fn missing(self, light: &Light) -> Option<&'static str> {
         let has_photons = light.photons.as_ref().is_some_and(|photons| !photons.photons.is_empty());
         match self {
-            Self::Photons | Self::KdTree => (!has_photons).then_some("There are no photons yet: press Run"),
+            Self::Photons | Self::KdTree if has_photons => None,
+            Self::Photons | Self::KdTree if light.photons.as_ref().is_some_and(|photons| photons.is_complete) => {
+                Some("No photon has landed: they are kept where a surface has a diffuse part")
+            }
+            Self::Photons | Self::KdTree => Some("There are no photons yet: press Run"),
             Self::Camera(view) if light.image_of(view).is_some() => None,
             Self::Camera(view) if view.needs_photons() && !has_photons => {
                 Some("This picture is read off photons, and there are none yet: press Run")

@@ -163,8 +163,11 @@ pub fn start_method(world: Arc<World>, settings: &Settings) -> Result<Box<dyn Me
 /// # Errors
 /// If there is not.
 pub fn check_photons(world: &World, settings: &PhotonSettings) -> Result<(), Refused> {
-    let photons = u64::from(settings.count) + u64::from(settings.caustic_count);
-    let landings = (photons as f64 * landings_per_photon(world)) as u64;
+    let is_specular = world.scene.materials.iter().any(|material| material.lobes().is_specular());
+    // Photons of the caustic map are there for specular surfaces, and end where they land first.
+    let caustic = if is_specular { u64::from(settings.caustic_count) } else { 0 };
+    let photons = u64::from(settings.count) + caustic;
+    let landings = (f64::from(settings.count) * landings_per_photon(world)) as u64 + caustic;
     let (needed, available) = (landings.saturating_mul(BYTES_PER_LANDING), available_memory());
     if needed > available {
         return Err(Refused::Photons { photons, landings, needed_mib: needed >> 20, available_mib: available >> 20 });

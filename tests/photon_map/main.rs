@@ -3,6 +3,7 @@
 mod agreement;
 mod boundary;
 mod furnace;
+mod glass;
 mod ledger;
 #[path = "../common/oracle.rs"]
 mod oracle;

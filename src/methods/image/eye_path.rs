@@ -21,6 +21,8 @@ pub struct Seen<'a> {
     pub bsdf: &'a Bsdf,
     /// Events from the eye backwards.
     pub to_eye: Path,
+    /// The glass that it is seen through.
+    pub media: Media,
 }
 
 /// What is known of the light that diffuse lobes send on.
@@ -61,10 +63,10 @@ struct Leg {
 }
 
 impl EyePath {
-    /// Radiance that arrives along a ray: what surfaces emit and what their diffuse lobes send on, directly and over specular
+    /// Radiance that arrives along a ray that starts in this glass: what surfaces emit and what their diffuse lobes send on, directly and over specular
     /// lobes. At the first surfaces all of these are followed, later on one of them.
-    pub fn look(&self, ray: Ray, draws: &mut Draws, scratch: &mut Scratch) -> Sight {
-        let leg = Leg { ray, throughput: Rgb::ONE, narrowing: 1.0, media: Media::default(), to_eye: Path::LIGHT };
+    pub fn look(&self, ray: Ray, media: Media, draws: &mut Draws, scratch: &mut Scratch) -> Sight {
+        let leg = Leg { ray, throughput: Rgb::ONE, narrowing: 1.0, media, to_eye: Path::LIGHT };
         let mut sight = Sight::default();
         self.follow(&leg, &mut sight, draws, scratch);
         sight
@@ -80,7 +82,8 @@ impl EyePath {
         }
         let bsdf = self.transport.bsdf(&surface, -leg.ray.direction, &leg.media);
         if bsdf.diffuse() != Rgb::ZERO {
-            let seen = Seen { surface: &surface, bsdf: &bsdf.only(Scattering::Diffuse), to_eye: leg.to_eye };
+            let seen =
+                Seen { surface: &surface, bsdf: &bsdf.only(Scattering::Diffuse), to_eye: leg.to_eye, media: leg.media };
             let (leaving, rays) = self.light.leaving(&seen, draws, scratch);
             sight.radiance += leg.throughput * leg.narrowing * leaving;
             sight.rays += rays;

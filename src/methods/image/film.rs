@@ -6,6 +6,7 @@ use crate::camera::{Camera, EyeRays};
 use crate::cancel::Cancel;
 use crate::math::rgb::Rgb;
 use crate::methods::photon_map::Scratch;
+use crate::methods::transport::Media;
 use glam::Vec2;
 use rayon::prelude::*;
 
@@ -19,6 +20,8 @@ const TILES_PER_STEP: usize = 16;
 /// Sums over the samples of each pixel, and how far the pass under way has come.
 pub struct Film {
     eye_rays: EyeRays,
+    /// The glass that the eye is in.
+    media: Media,
     size: [u32; 2],
     seed: u64,
     /// The newest whole grid of coarse cells.
@@ -59,9 +62,10 @@ pub struct Developed {
 }
 
 impl Film {
-    pub fn new(camera: &Camera, size: [u32; 2], seed: u64) -> Self {
+    pub fn new(camera: &Camera, media: Media, size: [u32; 2], seed: u64) -> Self {
         Self {
             eye_rays: camera.rays(size),
+            media,
             size,
             seed,
             coarse: None,
@@ -138,7 +142,7 @@ impl Film {
         let mut draws = Draws::new(self.seed, pixel, self.samples());
         let inside = if cell == 1 { draws.spread(Use::Pixel, 0, 1) } else { Vec2::splat(0.5) };
         let place = Vec2::new(x as f32, y as f32) + inside * cell as f32;
-        path.look(self.eye_rays.through(place.to_array()), &mut draws, scratch)
+        path.look(self.eye_rays.through(place.to_array()), self.media, &mut draws, scratch)
     }
 
     fn keep(&mut self, tile: &Tile, width: u32, sights: &[Sight]) {

@@ -54,7 +54,7 @@ impl DiffuseLight for GatherLight {
             if direction.dot(seen.surface.facing) > 0.0 {
                 let ray = self.transport.leave(seen.surface, direction);
                 // A filter tells paths apart by their last bounces, which are known only without a further one.
-                let (arriving, more) = self.arriving(seen.to_eye, ray, self.matcher.passes_all(), draws);
+                let (arriving, more) = self.arriving(seen.to_eye, ray, seen.media, self.matcher.passes_all(), draws);
                 sum += arriving;
                 rays += more;
             }
@@ -72,9 +72,9 @@ fn stratified(i: u32, count: u32, stream: &mut Stream) -> Vec2 {
 impl GatherLight {
     /// Radiance that arrives along a gathering ray, without what comes from emitters directly or over specular surfaces, which
     /// is known already; and the rays that this took. With `refines`, what is near is gathered one bounce further.
-    fn arriving(&self, to_eye: Path, mut ray: Ray, refines: bool, draws: &mut Draws) -> (Rgb, u64) {
+    fn arriving(&self, to_eye: Path, mut ray: Ray, mut media: Media, refines: bool, draws: &mut Draws) -> (Rgb, u64) {
         let (mut radiance, mut rays) = (Rgb::ZERO, 0);
-        let (mut throughput, mut media) = (Rgb::ONE, Media::default());
+        let mut throughput = Rgb::ONE;
         for event in 0..MAX_EVENTS {
             rays += 1;
             let Some(surface) = self.transport.meet(&ray) else { break };
@@ -82,7 +82,8 @@ impl GatherLight {
             if bsdf.diffuse() != Rgb::ZERO {
                 let is_near = event == 0 && surface.distance < NEAR_ELEMENTS * self.transport.world.element_size;
                 if refines && is_near {
-                    let (leaving, more) = self.leaving_near(&surface, &bsdf.only(Scattering::Diffuse), to_eye, draws);
+                    let (leaving, more) =
+                        self.leaving_near(&surface, &bsdf.only(Scattering::Diffuse), to_eye, media, draws);
                     radiance += throughput * leaving;
                     rays += more;
                 } else {
@@ -104,12 +105,19 @@ impl GatherLight {
     }
 
     /// Radiance that a place near by sends: its own direct light, the photons of caustics, and one gathering ray further.
-    fn leaving_near(&self, surface: &Surface, bsdf: &Bsdf, to_eye: Path, draws: &mut Draws) -> (Rgb, u64) {
+    fn leaving_near(
+        &self,
+        surface: &Surface,
+        bsdf: &Bsdf,
+        to_eye: Path,
+        media: Media,
+        draws: &mut Draws,
+    ) -> (Rgb, u64) {
         let direct = direct::random(&self.transport, surface, bsdf, draws);
         let caustic = self.arrivals.caustic_irradiance(surface);
         let direction = frame(surface.normal) * cosine_hemisphere(draws.stream.uniform2());
         let (indirect, rays) = if direction.dot(surface.facing) > 0.0 {
-            self.arriving(to_eye, self.transport.leave(surface, direction), false, draws)
+            self.arriving(to_eye, self.transport.leave(surface, direction), media, false, draws)
         } else {
             (Rgb::ZERO, 0)
         };

@@ -13,7 +13,7 @@ mod photon_light;
 use crate::camera::Camera;
 use crate::cancel::Cancel;
 use crate::methods::photon_map::PhotonMaps;
-use crate::methods::transport::Transport;
+use crate::methods::transport::{Media, Transport};
 use crate::methods::{ImageSettings, Settings, Step};
 use crate::solution::{CameraImage, CameraView, PathFilter, Solution};
 use arrivals::ArrivalMaps;
@@ -90,20 +90,15 @@ impl ImageRun {
         size: [u32; 2],
         settings: &Settings,
     ) -> Option<Self> {
-        Some(Self {
-            view,
-            camera,
-            size,
-            settings: settings.image,
-            path: Arc::new(sources.eye_path(view, &settings.image)?),
-            film: Film::new(&camera, size, settings.seed),
-        })
+        let path = Arc::new(sources.eye_path(view, &settings.image)?);
+        let film = Film::new(&camera, media_round(&path, &camera), size, settings.seed);
+        Some(Self { view, camera, size, settings: settings.image, path, film })
     }
 
     /// The same view of the same light from elsewhere, before its first step.
     #[must_use]
     pub fn moved_to(&self, camera: Camera, size: [u32; 2]) -> Self {
-        let film = Film::new(&camera, size, self.film.seed());
+        let film = Film::new(&camera, media_round(&self.path, &camera), size, self.film.seed());
         Self { camera, size, film, path: self.path.clone(), ..*self }
     }
 
@@ -153,4 +148,9 @@ impl ImageRun {
             is_complete: self.film.samples() >= self.settings.samples,
         })
     }
+}
+
+/// The glass that the eye of a camera is in.
+fn media_round(path: &EyePath, camera: &Camera) -> Media {
+    path.transport.media_at(camera.eye().as_vec3a())
 }

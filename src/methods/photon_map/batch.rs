@@ -1,7 +1,7 @@
 //! Photons traced together: where they landed, and their books.
 
 use super::tally::Tally;
-use super::trace::{Arrival, MapKind, Roulette, Shower, Witness, is_caustic};
+use super::trace::{Arrival, MapKind, Roulette, Shower, Witness};
 use crate::cancel::{Cancel, Cancelled};
 use crate::math::rgb::Rgb;
 use crate::methods::transport::Emission;
@@ -80,7 +80,7 @@ impl Witness for Record<'_> {
 
     fn met(&mut self, arrival: &Arrival, roulette: &Roulette) {
         let lands = arrival.diffuse != Rgb::ZERO;
-        let is_caustic = is_caustic(arrival.path);
+        let is_caustic = arrival.path.is_caustic();
         let kept = roulette.scattering.map(|_| roulette.flux);
         match self.kind {
             MapKind::Global => {

@@ -4,7 +4,6 @@ use super::density::{Estimate, Sum};
 use super::ground::Ground;
 use super::horizon::Horizon;
 use super::nearest::Nearest;
-use super::trace::is_caustic;
 use super::tree::{Entry, Found, Tree};
 use crate::math::rgb::Rgb;
 use crate::methods::Kernel;
@@ -33,7 +32,7 @@ impl Kind {
     fn of(path: Path) -> Self {
         if path.is_empty() {
             Self::Direct
-        } else if is_caustic(path) {
+        } else if path.is_caustic() {
             Self::Caustic
         } else {
             Self::Indirect
@@ -155,7 +154,7 @@ impl Trees {
             })
         });
         let path_of: Vec<u32> = path_of.collect();
-        let belongs_to_caustics = |index: &u32| has_caustic_map && is_caustic(photons[*index as usize].path);
+        let belongs_to_caustics = |index: &u32| has_caustic_map && photons[*index as usize].path.is_caustic();
         let (caustic, global): (Vec<u32>, Vec<u32>) = (0..photons.len() as u32).partition(belongs_to_caustics);
         let map = |indices: &[u32], scale| Map::new(&photons, indices, &path_of, &ground, scale);
         let (global, caustic) = (map(&global, scales[0]), map(&caustic, scales[1]));
@@ -209,7 +208,7 @@ impl PhotonMaps {
 
     /// What the flux of a photon is to be multiplied by while some are still to come: those that are there stand for all.
     pub fn scale(&self, photon: &Photon) -> f32 {
-        let is_caustic = self.trees.has_caustic_map && is_caustic(photon.path);
+        let is_caustic = self.trees.has_caustic_map && photon.path.is_caustic();
         if is_caustic { self.trees.caustic.scale } else { self.trees.global.scale }
     }
 

@@ -3,7 +3,7 @@
 use crate::math::random::Stream;
 use crate::math::rgb::Rgb;
 use crate::methods::Settings;
-use crate::methods::transport::{Bsdf, Emission, Media, Surface, Transport};
+use crate::methods::transport::{Bsdf, Emission, Surface, Transport};
 use crate::solution::{Path, Scattering};
 use glam::Vec3A;
 
@@ -20,12 +20,6 @@ pub enum MapKind {
     Global,
     /// Light that has met specular surfaces alone, and at least one.
     Caustic,
-}
-
-/// Whether light that came along this path belongs to a caustic where it lands. Of the longest paths the beginning is not
-/// known: they count as any other light, in both maps.
-pub fn is_caustic(path: Path) -> bool {
-    path.is_caustic() && path.len() < Path::MAX_EVENTS
 }
 
 /// Photons that share the flux of all emitters.
@@ -91,8 +85,8 @@ impl<'a> Shower<'a> {
         let Some(emission) = self.transport.emitters().emit(index, self.count, self.seed, pass) else { return };
         witness.emitted(&emission);
         let mut stream = Stream::new(self.seed, pass, index);
-        let Emission { mut ray, mut flux } = emission;
-        let (mut path, mut media) = (Path::LIGHT, Media::default());
+        let Emission { mut ray, mut flux, mut media } = emission;
+        let mut path = Path::LIGHT;
         for _ in 0..MAX_BOUNCES {
             let Some(surface) = self.transport.meet(&ray) else {
                 witness.escaped(flux, ray.direction);
@@ -106,7 +100,7 @@ impl<'a> Shower<'a> {
             flux = roulette.flux;
             path = path.then(scattering);
             if crosses {
-                media = media.across(&surface);
+                media = self.transport.media_behind(&surface, media);
             }
             ray = self.transport.leave(&surface, direction);
         }

@@ -29,7 +29,7 @@ impl Surfaces {
         let exitance = |patch: &Patch| if patch.is_front { material(patch).exitance().as_dvec3() } else { Rgb64::ZERO };
         Self {
             area: patches.iter().map(|patch| patch.area).collect(),
-            reflectance: patches.iter().map(|patch| material(patch).diffuse.as_dvec3()).collect(),
+            reflectance: patches.iter().map(|patch| material(patch).lobes().diffuse.as_dvec3()).collect(),
             exitance: patches.iter().map(exitance).collect(),
             emitted: patches.iter().map(|patch| exitance(patch) * patch.area).sum(),
             escape_share: world.escape_share,

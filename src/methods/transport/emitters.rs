@@ -1,5 +1,6 @@
 //! Emitters: where light starts, and where shadow rays go.
 
+use super::Media;
 use crate::math::random::{hash, sobol2};
 use crate::math::rgb::{Rgb, Rgb64, total};
 use crate::math::warp::{cosine_hemisphere, frame};
@@ -13,6 +14,7 @@ use std::f64::consts::PI;
 const SEQUENCE: u64 = 1 << 16;
 
 /// The triangles of all emitters, chosen in proportion to their flux.
+#[derive(Default)]
 pub struct Emitters {
     lamps: Vec<Lamp>,
     /// For each lamp the share of the flux of it and those before, in [0, 1].
@@ -25,6 +27,7 @@ struct Lamp {
     points: Sampler,
     normal: Vec3A,
     polygon: u32,
+    media: Media,
     /// W/(m²·sr)
     radiance: Rgb,
     /// m²
@@ -39,6 +42,8 @@ pub struct Emission {
     pub ray: Ray,
     /// W
     pub flux: Rgb,
+    /// The glass that the emitter is in.
+    pub media: Media,
 }
 
 /// A point of an emitter, chosen with a known density.
@@ -76,6 +81,7 @@ impl Emitters {
                     points: region.sampler(world.tracer.offset() * normal),
                     normal,
                     polygon: index as u32,
+                    media: Media::default(),
                     radiance: material.emission,
                     area: 0.5 * (b - a).cross(c - a).length(),
                     chance: 0.0,
@@ -91,6 +97,13 @@ impl Emitters {
             cumulative.push(sum);
         }
         Self { lamps, cumulative, flux }
+    }
+
+    /// Finds out which glass each emitter is in; `media_at` knows it of a point.
+    pub fn place_in_media(&mut self, media_at: impl Fn(Vec3A) -> Media) {
+        for lamp in &mut self.lamps {
+            lamp.media = media_at(lamp.points.point(Vec2::splat(0.5)));
+        }
     }
 
     /// Whether nothing emits.
@@ -113,7 +126,7 @@ impl Emitters {
         let direction = frame(lamp.normal) * cosine_hemisphere(sobol2(place, 1, sequence));
         let origin = lamp.points.point(sobol2(place, 0, sequence));
         let flux = lamp.flux() / (lamp.chance * count as f64);
-        Some(Emission { ray: Ray { origin, direction }, flux: flux.as_vec3() })
+        Some(Emission { ray: Ray { origin, direction }, flux: flux.as_vec3(), media: lamp.media })
     }
 
     /// A point of an emitter, for numbers in [0, 1): emitters in proportion to their flux, points evenly over each. `None`

@@ -40,6 +40,17 @@ impl Media {
         media
     }
 
+    /// The media round a point from which a ray leaves through backs of these materials, the innermost first.
+    pub fn inside_of(bodies: &[u32]) -> Self {
+        let mut media = Self::default();
+        let outer = bodies.len().saturating_sub(Self::DEEPEST);
+        for &body in bodies[..bodies.len() - outer].iter().rev() {
+            media.bodies[usize::from(media.count)] = body;
+            media.count += 1;
+        }
+        media
+    }
+
     fn innermost(&self) -> Option<u32> {
         self.count.checked_sub(1).map(|last| self.bodies[usize::from(last)])
     }

@@ -27,7 +27,13 @@ pub struct Transport {
     pub world: Arc<World>,
     facets: Vec<Facet>,
     emitters: Emitters,
+    has_glass: bool,
 }
+
+/// A ray that looks for the glass round a point meets at most so many surfaces.
+const MOST_SURFACES: usize = 256;
+/// In which it looks, of unit length but for rounding: along no axis, since scenes have edges there.
+const LOOK: Vec3A = Vec3A::new(0.357_6, 0.863_4, 0.356_1);
 
 /// What is asked of a polygon at every hit.
 #[derive(Clone, Copy)]
@@ -48,7 +54,11 @@ impl Transport {
         };
         let facets: Vec<Facet> = scene.polygons.iter().map(|polygon| facet(polygon.corners())).collect();
         let emitters = Emitters::new(&world, |polygon| facets[polygon].normal);
-        Self { facets, emitters, world }
+        let has_glass = scene.materials.iter().any(Material::is_glass);
+        let mut transport = Self { facets, emitters, has_glass, world };
+        let mut emitters = std::mem::take(&mut transport.emitters);
+        emitters.place_in_media(|point| transport.media_at(point));
+        Self { emitters, ..transport }
     }
 
     pub fn emitters(&self) -> &Emitters {
@@ -89,6 +99,26 @@ impl Transport {
     /// The media behind a surface, for light that goes through it.
     pub fn media_behind(&self, surface: &Surface, media: Media) -> Media {
         if self.material(surface).lobes().glass > 0.0 { media.across(surface) } else { media }
+    }
+
+    /// The glass that a point is in: of each body, a ray that goes away from the point meets more backs than fronts.
+    pub fn media_at(&self, point: Vec3A) -> Media {
+        let (mut entered, mut around) = (Vec::new(), Vec::new());
+        let mut ray = Ray { origin: point, direction: LOOK.normalize() };
+        for _ in 0..if self.has_glass { MOST_SURFACES } else { 0 } {
+            let Some(surface) = self.meet(&ray) else { break };
+            if self.material(&surface).is_glass() {
+                if surface.is_front {
+                    entered.push(surface.material);
+                } else if let Some(place) = entered.iter().rposition(|&body| body == surface.material) {
+                    entered.remove(place);
+                } else {
+                    around.push(surface.material);
+                }
+            }
+            ray = self.leave(&surface, ray.direction);
+        }
+        Media::inside_of(&around)
     }
 
     /// Radiance that a surface itself sends, W/(m²·sr). Emitters shine from their front.

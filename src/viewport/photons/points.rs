@@ -39,6 +39,8 @@ struct Shown {
     filter: PathFilter,
     /// Largest channel of the flux of any of the photons, W.
     brightest: f32,
+    /// One photon of so many is uploaded.
+    stride: usize,
 }
 
 impl Cloud {
@@ -63,11 +65,13 @@ impl Cloud {
         let photons = &solution.photons;
         let mut first_new = 0;
         let mut brightest = brightest(photons);
+        // Some of too many show as well where they are dense.
+        let stride = photons.len().div_ceil(MOST.min(Records::<PhotonRecord>::limit(gpu))).max(1);
         if let Some(shown) = self.shown.as_ref().filter(|shown| shown.colour == colour && shown.filter == *filter) {
             if Arc::ptr_eq(&shown.solution.photons, photons) {
                 return;
             }
-            if shown.is_continued_by(solution, brightest) {
+            if shown.stride == stride && shown.is_continued_by(solution, brightest) {
                 first_new = shown.solution.photons.len();
                 brightest = shown.brightest;
             }
@@ -75,13 +79,11 @@ impl Cloud {
         if first_new == 0 {
             self.records.clear();
         }
-        // Some of too many show as well where they are dense.
-        let stride = photons.len().div_ceil(MOST.min(Records::<PhotonRecord>::limit(gpu))).max(1);
         let mut passing = Passing::new(filter);
         let new = photons[first_new..].iter().step_by(stride).filter(|photon| passing.holds(photon));
         let (normals, units) = (&self.normals, &self.units);
         self.records.extend(gpu, new.map(|photon| record(photon, colour.of(photon, brightest), normals, units)));
-        self.shown = Some(Shown { solution: Arc::clone(solution), colour, filter: *filter, brightest });
+        self.shown = Some(Shown { solution: Arc::clone(solution), colour, filter: *filter, brightest, stride });
     }
 }
 

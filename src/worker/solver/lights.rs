@@ -3,7 +3,7 @@
 use super::{Light, Part, Solver};
 use crate::errors::with_causes;
 use crate::methods::Step;
-use crate::solution::{PhotonSolution, Solution};
+use crate::solution::{CameraView, PhotonSolution, Solution};
 use crate::worker::going::Going;
 use crate::worker::run::{PhotonRun, Run};
 use crate::worker::workshop::Workshop;
@@ -39,7 +39,11 @@ impl<W: Workshop> Solver<W> {
             Some(LightKind::Photons) => self.start_photons(&world),
             None => Ok(()),
         };
-        self.easel.clear();
+        match kind {
+            Some(LightKind::Radiosity) => self.easel.forget(CameraView::needs_radiosity),
+            Some(LightKind::Photons) => self.easel.forget(CameraView::needs_photons),
+            None => self.easel.clear(),
+        }
         self.snapshot.error = started.err().map(|refused| with_causes(&refused));
         self.publish();
     }

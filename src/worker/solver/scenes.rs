@@ -1,13 +1,14 @@
 //! Scenes and settings: another of either begins anew what depends on it, and nothing else.
 
-use super::Solver;
+use super::{Part, Solver};
 use crate::errors::with_causes;
 use crate::mesh::MeshSettings;
 use crate::methods::{ImageSettings, PhotonSettings, Settings};
 use crate::scene::Scene;
 use crate::solution::CameraView;
-use crate::worker::Refused;
+use crate::worker::going::Going;
 use crate::worker::workshop::Workshop;
+use crate::worker::{LightKind, Refused};
 use crate::world::{World, WorldError, with_ceiling_light};
 use std::sync::Arc;
 
@@ -68,15 +69,17 @@ impl<W: Workshop> Solver<W> {
         let Some(world) = self.snapshot.world.clone() else { return self.publish() };
         if old.mesh == settings.mesh {
             self.snapshot.error = None;
+            // Nothing of settings that are refused is taken over, so that all light has the same seed.
+            if let Err(refused) = self.configure_photons(&world) {
+                self.snapshot.error = Some(with_causes(&refused));
+                self.snapshot.settings = old;
+                return self.publish();
+            }
             self.configure_pictures(&old);
             if let Err(refused) = self.configure_radiosity(world.clone()) {
                 self.snapshot.error = Some(with_causes(&refused));
                 let Settings { photons, image, .. } = settings;
                 self.snapshot.settings = Settings { photons, image, ..old };
-            }
-            if let Err(refused) = self.configure_photons(&world) {
-                self.snapshot.error = Some(with_causes(&refused));
-                self.snapshot.settings.photons = old.photons;
             }
         } else {
             let remeshed = world.remeshed(&settings.mesh, self.mailbox.mesh_cancel()).map_err(NoWorld::from);
@@ -100,7 +103,8 @@ impl<W: Workshop> Solver<W> {
 
     fn configure_photons(&mut self, world: &Arc<World>) -> Result<(), Refused> {
         let settings = self.snapshot.settings;
-        let has_begun = self.photons.starts > 0;
+        self.at_work = Part::Light(LightKind::Photons);
+        let has_begun = self.photons.run.is_some() || self.photons.going == Going::Crashed;
         if has_begun && !self.photons.run.as_mut().is_some_and(|run| run.configure(&settings)) {
             self.start_photons(world)?;
         }
