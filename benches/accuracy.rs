@@ -1,6 +1,6 @@
-//! What the accuracy of final gather costs in time: `cargo bench --bench accuracy` prints the error of the Cornell box after each
-//! pass, the root of the mean of (I − R)² / (R² + 0.01) over pixels and channels, without the emitter. R is brute force, whose own
-//! noise is taken out.
+//! What the accuracy of final gather costs in time. `cargo bench --bench accuracy` prints the error of the Cornell box after
+//! each pass: the root of the mean of (I − R)² / (R² + 0.01) over pixels and channels, without the emitter. R is brute
+//! force, whose own noise is taken out.
 
 #[path = "../tests/image/truth.rs"]
 mod truth;

@@ -1,5 +1,5 @@
-//! Pictures from a camera: `cargo bench --bench image` prints the rays per second of whole passes. `tracer/closest` of the bench
-//! `light` traces rays of the same kind and nothing else.
+//! Pictures from a camera: `cargo bench --bench image` prints the rays per second of whole passes. `tracer/closest` of the
+//! bench `light` traces rays of the same kind and nothing else.
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use lightwell::camera::Camera;

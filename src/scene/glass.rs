@@ -2,7 +2,8 @@
 //!
 //! Rays know that they are in glass by the fronts and backs that they cross, so fronts must look outwards. Connected faces
 //! of one glass are a shell. Of a closed one, faces that disagree with their neighbours are turned, and then all of them
-//! if the volume inside is negative. A shell inside another of the same glass may bound a bubble, and look into it. A surface that is not closed has no inside: it counts as a sheet that light passes straight through.
+//! if the volume inside is negative. A shell inside another of the same glass may bound a bubble, and look into it. A surface
+//! that is not closed has no inside: it counts as a sheet that light passes straight through.
 
 use super::doctor::{Finding, FindingKind};
 use super::material::Material;
