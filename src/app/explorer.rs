@@ -265,8 +265,10 @@ impl Explorer {
         }
     }
 
-    /// One of the two, or neither.
+    /// One of the two, or neither. The photon is an index among those on show.
     fn pick_photons(&self, photon: Option<u32>, spot: Option<Spot>) {
+        let photons = self.snapshot.photons.as_ref().map(|solution| &solution.photons);
+        let photon = photon.and_then(|index| photons?.get(index as usize).copied());
         self.worker.send(Command::PickPhoton(photon));
         self.worker.send(Command::Gather(spot));
     }

@@ -3,7 +3,7 @@
 use crate::camera::Camera;
 use crate::methods::Settings;
 use crate::scene::Scene;
-use crate::solution::CameraView;
+use crate::solution::{CameraView, Photon};
 use crate::world::World;
 use glam::Vec3;
 use std::fmt;
@@ -28,8 +28,9 @@ pub enum Command {
     Reset,
     /// Computes what this patch sees, or forgets about it. Without effect if another world is on show by then.
     Pick(Option<Place>),
-    /// Traces the way of a photon again, by its index among those on show, or forgets about it.
-    PickPhoton(Option<u32>),
+    /// Traces the way of a photon again, or forgets about it. Other photons may be on show by then: one that is not among
+    /// them has no way.
+    PickPhoton(Option<Photon>),
     /// Says what the estimate of irradiance at a spot is made of, or forgets about it.
     Gather(Option<Spot>),
     /// Says what is on show: it is worked on first, and a picture from a camera is made anew where anything of it changed.

@@ -182,7 +182,7 @@ mod tests {
     use crate::math::bounds::Bounds;
     use crate::methods::Settings;
     use crate::scene::Viewpoint;
-    use crate::solution::CameraView;
+    use crate::solution::{CameraView, Path, Photon};
     use crate::worker::Subject;
     use glam::Vec3;
 
@@ -194,6 +194,11 @@ mod tests {
         queue.into()
     }
 
+    fn photon() -> Photon {
+        let (position, flux, direction) = (Vec3::ZERO, Vec3::ONE, Vec3::NEG_Y);
+        Photon { position, flux, direction, side: 0, path: Path::LIGHT, emission: 7 }
+    }
+
     #[test]
     fn the_newest_of_a_kind_wins() {
         let with_seed = |seed| Command::Configure(Settings { seed, ..Settings::default() });
@@ -201,7 +206,7 @@ mod tests {
         assert_eq!(merged([Command::Run, Command::Pause, Command::Run]), [Command::Run]);
         assert_eq!(merged([Command::Step(1), Command::Step(10)]), [Command::Step(11)]);
         assert_eq!(merged([Command::Run, Command::Step(5), Command::Reset]), [Command::Reset]);
-        let photons = [Some(7), None].map(Command::PickPhoton);
+        let photons = [Some(photon()), None].map(Command::PickPhoton);
         assert_eq!(
             merged([photons[0].clone(), Command::Gather(None), photons[1].clone()]),
             [Command::Gather(None), Command::PickPhoton(None)]

@@ -3,7 +3,7 @@
 use crate::fake::{self, BATCHES, Counts, Fakes};
 use crate::{load, look, steps, wait_for};
 use lightwell::methods::{PhotonSettings, Settings, Step};
-use lightwell::solution::CameraView;
+use lightwell::solution::{CameraView, Photon};
 use lightwell::worker::{Command, LightKind, Phase, Snapshot, Spot, Subject, Worker};
 use std::sync::Arc;
 use std::time::Duration;
@@ -184,7 +184,8 @@ fn a_crash_of_one_light_leaves_the_other() {
 #[test]
 fn what_is_picked_among_photons_keeps_up_with_them() {
     let (worker, _, _) = with_both();
-    worker.send(Command::PickPhoton(Some(2)));
+    let photon = worker.latest().photons.as_ref().expect("photons").photons[2];
+    worker.send(Command::PickPhoton(Some(photon)));
     let picked = wait_for(&worker, "picked", |now| now.trail.is_some());
     assert_eq!(picked.trail.as_ref().expect("a trail").places.len(), 3);
     worker.send(Command::Gather(Some(Spot { point: glam::Vec3::ZERO, normal: glam::Vec3::Y })));
@@ -194,7 +195,7 @@ fn what_is_picked_among_photons_keeps_up_with_them() {
     let more = wait_for(&worker, "traced", |now| used(now) == 5);
     assert!(more.trail.is_some());
     // A photon that is not there has no way; a spot that makes the photons crash is not tried again.
-    worker.send(Command::PickPhoton(Some(99)));
+    worker.send(Command::PickPhoton(Some(Photon { emission: 99, ..photon })));
     wait_for(&worker, "forgotten", |now| now.trail.is_none());
     worker.send(Command::Gather(Some(Spot { point: 2e6 * glam::Vec3::X, normal: glam::Vec3::Y })));
     wait_for(&worker, "crashed", |now| now.phase == Phase::Crashed);

@@ -82,7 +82,7 @@ fn photons_and_estimates_are_looked_into() {
     let photons = lit.photons.as_ref().expect("photons");
     let bounced =
         photons.photons.iter().position(|photon| photon.path.len() == 2).expect("a photon that bounced twice");
-    worker.send(Command::PickPhoton(Some(bounced as u32)));
+    worker.send(Command::PickPhoton(Some(photons.photons[bounced])));
     let picked = wait_for(&worker, "picked", |now| now.trail.is_some());
     let places = &picked.trail.as_ref().expect("a trail").places;
     // It comes by where it was stored: the third surface, after the emitter.

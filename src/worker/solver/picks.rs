@@ -2,6 +2,7 @@
 
 use super::{Part, Solver};
 use crate::methods::radiosity;
+use crate::solution::Photon;
 use crate::worker::workshop::{PhotonMethod, Workshop};
 use crate::worker::{LightKind, Place, Spot};
 use std::sync::Arc;
@@ -37,10 +38,10 @@ impl<W: Workshop> Solver<W> {
     }
 
     /// Traces one of the photons that were published last once more, or forgets about it.
-    pub(super) fn pick_photon(&mut self, photon: Option<u32>) {
+    pub(super) fn pick_photon(&mut self, photon: Option<Photon>) {
         self.at_work = Part::Light(LightKind::Photons);
         let photons = self.snapshot.photons.as_ref().map(|solution| &solution.photons);
-        let photon = photon.and_then(|index| photons?.get(index as usize).copied());
+        let photon = photon.filter(|photon| photons.is_some_and(|photons| photons.contains(photon)));
         let run = self.photons.run.as_mut();
         self.snapshot.trail = photon.and_then(|photon| run?.method().trail(&photon)).map(Arc::new);
         self.publish();

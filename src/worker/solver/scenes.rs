@@ -68,19 +68,18 @@ impl<W: Workshop> Solver<W> {
         let old = std::mem::replace(&mut self.snapshot.settings, settings);
         let Some(world) = self.snapshot.world.clone() else { return self.publish() };
         if old.mesh == settings.mesh {
-            self.snapshot.error = None;
-            // Nothing of settings that are refused is taken over, so that all light has the same seed.
-            if let Err(refused) = self.configure_photons(&world) {
-                self.snapshot.error = Some(with_causes(&refused));
-                self.snapshot.settings = old;
-                return self.publish();
+            let mut refusal = self.configure_photons(&world).err();
+            if refusal.is_some() {
+                // All light has the same seed.
+                self.snapshot.settings = Settings { photons: old.photons, seed: old.seed, ..settings };
             }
             self.configure_pictures(&old);
-            if let Err(refused) = self.configure_radiosity(world.clone()) {
-                self.snapshot.error = Some(with_causes(&refused));
-                let Settings { photons, image, .. } = settings;
+            if let Err(refused) = self.configure_radiosity(world) {
+                let Settings { photons, image, .. } = self.snapshot.settings;
                 self.snapshot.settings = Settings { photons, image, ..old };
+                refusal = Some(refused);
             }
+            self.snapshot.error = refusal.map(|refused| with_causes(&refused));
         } else {
             let remeshed = world.remeshed(&settings.mesh, self.mailbox.mesh_cancel()).map_err(NoWorld::from);
             if !self.take_over(remeshed) {
