@@ -2,56 +2,23 @@
 //! each pass: the root of the mean of (I − R)² / (R² + 0.01) over pixels and channels, without the emitter. R is brute
 //! force, whose own noise is taken out.
 
+#[path = "common/pictures.rs"]
+mod pictures;
 #[path = "../tests/image/truth.rs"]
 mod truth;
 
 use lightwell::camera::Camera;
-use lightwell::cancel::Cancel;
 use lightwell::math::rgb::Rgb;
-use lightwell::mesh::MeshSettings;
-use lightwell::methods::image::{ImageRun, Sources};
-use lightwell::methods::photon_map::PhotonMapping;
+use lightwell::methods::image::ImageRun;
 use lightwell::methods::transport::Transport;
-use lightwell::methods::{ImageSettings, PhotonSettings, Settings, Step};
-use lightwell::scene::Scene;
 use lightwell::solution::CameraView;
-use lightwell::world::World;
+use pictures::{SIZE, cornell_box, pass, settings, with_photons};
 use rayon::prelude::*;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-const SIZE: [u32; 2] = [256, 256];
 /// Paths of each pixel of the truth.
 const PATHS: u64 = 1024;
-
-fn settings(photons: u32, gather_rays: u32) -> Settings {
-    Settings {
-        photons: PhotonSettings { count: photons, ..PhotonSettings::default() },
-        image: ImageSettings { samples: u32::MAX, gather_rays, light_rays: 4, ..ImageSettings::default() },
-        ..Settings::default()
-    }
-}
-
-fn cornell_box() -> Arc<World> {
-    let scene = Scene::open("cornell-box").expect("a built-in scene");
-    Arc::new(World::build(scene, &MeshSettings::default(), &Cancel::default()).expect("a world"))
-}
-
-fn with_photons(transport: &Arc<Transport>, settings: &Settings) -> Sources {
-    let mut photons = PhotonMapping::new(transport.clone(), settings);
-    while photons.step(&Cancel::default()) == Step::Advanced {}
-    Sources { transport: transport.clone(), radiosity: None, photons: Some(photons.maps()) }
-}
-
-/// One pass over all pixels, after the coarse ones.
-fn pass(run: &mut ImageRun) -> u64 {
-    let before = run.image().map_or(0, |image| image.rays);
-    let samples = run.samples();
-    while run.samples() == samples {
-        run.step(&Cancel::default());
-    }
-    run.image().map_or(0, |image| image.rays) - before
-}
 
 /// The truth, and the variance of each of its channels.
 fn truth(transport: &Transport, camera: &Camera) -> Vec<(Rgb, Rgb)> {

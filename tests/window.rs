@@ -1,6 +1,10 @@
 //! The window without a graphics adapter: its panels, found by the labels that a screen reader reads, against a model
 //! made up here.
 
+#[path = "window/crowds.rs"]
+mod crowds;
+#[path = "window/keyboard.rs"]
+mod keyboard;
 #[path = "window/looking.rs"]
 mod looking;
 #[path = "window/photons.rs"]
@@ -10,22 +14,21 @@ mod solvers;
 #[path = "window/stage.rs"]
 mod stage;
 
+use crowds::{crowds, texts};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, Rect, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lightwell::app::action::{Action, CameraMove};
-use lightwell::app::keys::of_view;
 use lightwell::app::model::{Dialog, Look, Notice, PathPurpose};
 use lightwell::app::views::ViewGroup;
 use lightwell::app::{Explorer, theme};
 use lightwell::choice::Choice;
 use lightwell::methods::Settings;
 use lightwell::scene::{FindingKind, Severity};
-use lightwell::solution::CameraView;
 use lightwell::viewport::{AdapterChoice, Gpu, View};
 use lightwell::worker::{Command, Phase};
-use stage::{LARGE, SMALL, SMALLEST, Stage, crowds, finding, showing, solution, texts};
+use stage::{LARGE, SMALL, SMALLEST, Stage, finding, showing, solution};
 use std::time::{Duration, Instant};
 
 /// What one key asks for.
@@ -77,96 +80,6 @@ fn the_window_shows_the_light_of_a_scene() {
     let shown = picture.get_pixel(middle.x as u32, middle.y as u32).0;
     // Every surface of the furnace is grey and has a radiance of 2/π, which no tone curve shows darker than the background.
     assert!(shown[0] > 64 && shown[0] == shown[1] && shown[1] == shown[2], "{shown:?}");
-}
-
-#[test]
-fn space_runs_and_pauses() {
-    assert_eq!(key(Stage::default(), Modifiers::NONE, Key::Space), [Action::Send(Command::Run)]);
-    let running = Stage { phase: Phase::Running, ..Stage::default() };
-    assert_eq!(key(running, Modifiers::NONE, Key::Space), [Action::Send(Command::Pause)]);
-    assert_eq!(key(Stage::empty(), Modifiers::NONE, Key::Space), []);
-}
-
-#[test]
-fn arrows_step() {
-    let step = |modifiers| key(Stage::default(), modifiers, Key::ArrowRight);
-    assert_eq!(step(Modifiers::NONE), [Action::Send(Command::Step(1))]);
-    assert_eq!(step(Modifiers::SHIFT), [Action::Send(Command::Step(10))]);
-    assert_eq!(step(Modifiers::COMMAND), [Action::Send(Command::Step(100))]);
-}
-
-#[test]
-fn letters_and_digits_do_what_the_help_says() {
-    let press = |pressed| key(Stage::default(), Modifiers::NONE, pressed);
-    assert_eq!(press(Key::R), [Action::Send(Command::Reset)]);
-    assert_eq!(press(Key::S), [Action::SavePictureNow]);
-    assert_eq!(press(Key::F), [Action::Camera(CameraMove::Fit)]);
-    let look = Look::default();
-    assert_eq!(press(Key::W), [Action::SetLook(Look { wireframe: true, ..look })]);
-    for &view in View::ALL {
-        let shortcut = of_view(view);
-        let pressed = key(Stage::default(), shortcut.modifiers, shortcut.logical_key);
-        assert_eq!(pressed, [Action::SetLook(Look { view, ..look })]);
-    }
-    assert_eq!(key(Stage::empty(), Modifiers::COMMAND, Key::O), [Action::BrowseForScene]);
-}
-
-#[test]
-fn a_digit_with_shift_is_told_by_its_place() {
-    let mut harness = Stage::default().small();
-    // As on a keyboard with English letters.
-    harness.event(egui::Event::Key {
-        key: Key::Exclamationmark,
-        physical_key: Some(Key::Num1),
-        pressed: true,
-        repeat: false,
-        modifiers: Modifiers::SHIFT,
-    });
-    harness.run();
-    let view = View::Camera(CameraView::Caustics);
-    assert_eq!(harness.state().actions, [Action::SetLook(Look { view, ..Look::default() })]);
-}
-
-#[test]
-fn a_held_key_toggles_once() {
-    let mut harness = Stage::default().small();
-    for repeat in [false, true, true] {
-        harness.event(egui::Event::Key {
-            key: Key::W,
-            physical_key: None,
-            pressed: true,
-            repeat,
-            modifiers: Modifiers::NONE,
-        });
-    }
-    harness.run();
-    assert_eq!(harness.state().actions.len(), 1);
-}
-
-#[test]
-fn keys_belong_to_a_field_while_it_is_edited() {
-    let mut harness = Stage::default().window(LARGE);
-    harness.get_by_label("Seed").click();
-    harness.run();
-    for pressed in [Key::Space, Key::R, Key::W, Key::Num1, Key::ArrowRight] {
-        harness.key_press(pressed);
-    }
-    harness.run();
-    assert_eq!(harness.state().actions, []);
-}
-
-#[test]
-fn what_is_typed_with_the_enter_that_ends_it_stays_in_the_field() {
-    let purpose = PathPurpose::OpenScene;
-    let mut harness = Stage { dialog: Some(Dialog::Path { purpose, text: "a".into() }), ..Stage::default() }.small();
-    let key =
-        |key| egui::Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers: Modifiers::NONE };
-    let typed = [key(Key::O), egui::Event::Text("o".into()), key(Key::Enter)];
-    harness.input_mut().events.extend(typed);
-    harness.step();
-    let dialog = Dialog::Path { purpose, text: "ao".into() };
-    let opened = [Action::ShowDialog(dialog), Action::CloseDialog, Action::Open("ao".into())];
-    assert_eq!(harness.state().actions, opened);
 }
 
 #[test]

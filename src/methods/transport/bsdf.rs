@@ -106,29 +106,14 @@ impl Bsdf {
     #[must_use]
     pub fn only(&self, scattering: Scattering) -> Self {
         match scattering {
-            Scattering::Diffuse => Self {
-                glossy: Rgb::ZERO,
-                mirror: Rgb::ZERO,
-                reflected: 0.0,
-                refracted: Rgb::ZERO,
-                straight: Rgb::ZERO,
-                ..*self
-            },
+            Scattering::Diffuse => Self { diffuse: self.diffuse, ..self.without_lobes() },
             Scattering::Specular => Self { diffuse: Rgb::ZERO, ..*self },
         }
     }
 
     /// Each of its specular lobes alone.
     pub fn specular_lobes(&self) -> impl Iterator<Item = Self> {
-        let none = Self {
-            diffuse: Rgb::ZERO,
-            glossy: Rgb::ZERO,
-            mirror: Rgb::ZERO,
-            reflected: 0.0,
-            refracted: Rgb::ZERO,
-            straight: Rgb::ZERO,
-            ..*self
-        };
+        let none = self.without_lobes();
         let lobes = [
             Self { glossy: self.glossy, ..none },
             Self { mirror: self.mirror, ..none },
@@ -137,6 +122,18 @@ impl Bsdf {
             Self { straight: self.straight, ..none },
         ];
         lobes.into_iter().filter(Self::is_specular)
+    }
+
+    fn without_lobes(&self) -> Self {
+        Self {
+            diffuse: Rgb::ZERO,
+            glossy: Rgb::ZERO,
+            mirror: Rgb::ZERO,
+            reflected: 0.0,
+            refracted: Rgb::ZERO,
+            straight: Rgb::ZERO,
+            ..*self
+        }
     }
 
     /// Share of the light that goes on, per channel, in [0, 1]. Of the glossy lobe this is what it keeps of light along the

@@ -30,6 +30,29 @@ pub fn show(ui: &mut Ui, model: &Model) {
     }
 }
 
+/// The emitted flux and where it is, W.
+struct Balance {
+    emitted: f64,
+    /// What `emitted` says to those who ask.
+    meaning: &'static str,
+    entries: [Entry; 3],
+    defect: f64,
+    /// The same of `defect`.
+    meaning_of_defect: &'static str,
+}
+
+impl Balance {
+    fn show(&self, ui: &mut Ui) {
+        figure(ui, "Emitted", strong(ui, watts(self.emitted)), self.meaning);
+        bar(ui, &self.entries, self.emitted);
+        for entry in &self.entries {
+            row(ui, entry, self.emitted);
+        }
+        ui.add_space(UNIT);
+        defect(ui, self.defect, self.emitted, self.meaning_of_defect);
+    }
+}
+
 /// One share of the emitted flux.
 struct Entry {
     name: &'static str,

@@ -1,10 +1,10 @@
 //! Where the flux of photons went, and what became of them.
 
-use super::{Entry, bar, defect, row, strong, watts};
+use super::{Balance, Entry};
 use crate::app::format;
 use crate::app::model::Model;
 use crate::app::panels::widgets::figure;
-use crate::app::theme::{Palette, UNIT};
+use crate::app::theme::Palette;
 use crate::math::rgb::total;
 use crate::solution::{PhotonCounters, PhotonEnergy};
 use egui::{CollapsingHeader, RichText, Ui};
@@ -17,16 +17,14 @@ pub fn show(ui: &mut Ui, model: &Model) {
         ui.label(RichText::new("No photons yet").weak());
         return;
     };
-    let entries = entries(&photons.energy, Palette::of(ui.visuals()));
-    let emitted = total(photons.energy.emitted);
-    let hover = "The flux of the photons of the global map that left the emitters, summed over red, green and blue";
-    figure(ui, "Emitted", strong(ui, watts(emitted)), hover);
-    bar(ui, &entries, emitted);
-    for entry in &entries {
-        row(ui, entry, emitted);
-    }
-    ui.add_space(UNIT);
-    defect(ui, total(photons.energy.defect()), emitted, DEFECT);
+    let balance = Balance {
+        emitted: total(photons.energy.emitted),
+        meaning: "The flux of the photons of the global map that left the emitters, summed over red, green and blue",
+        entries: entries(&photons.energy, Palette::of(ui.visuals())),
+        defect: total(photons.energy.defect()),
+        meaning_of_defect: DEFECT,
+    };
+    balance.show(ui);
     counts(ui, &photons.counters);
     tables(ui, &photons.counters);
 }

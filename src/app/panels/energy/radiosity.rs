@@ -1,10 +1,10 @@
 //! Where the emitted light is, as a bar that closes: absorbed, unshot and escaped must add up to emitted.
 
-use super::{Entry, bar, defect, row, strong, watts};
+use super::{Balance, Entry};
 use crate::app::format;
 use crate::app::model::Model;
 use crate::app::panels::widgets::figure;
-use crate::app::theme::{Palette, UNIT};
+use crate::app::theme::Palette;
 use crate::math::rgb::total;
 use crate::solution::{Counters, Energy, Solution};
 use egui::{RichText, Ui};
@@ -18,15 +18,14 @@ pub fn show(ui: &mut Ui, model: &Model) {
         ui.label(RichText::new("No light yet").weak());
         return;
     };
-    let entries = entries(&solution.energy, Palette::of(ui.visuals()));
-    let emitted = total(solution.energy.emitted);
-    figure(ui, "Emitted", strong(ui, watts(emitted)), "The flux of all emitters, summed over red, green and blue");
-    bar(ui, &entries, emitted);
-    for entry in &entries {
-        row(ui, entry, emitted);
-    }
-    ui.add_space(UNIT);
-    defect(ui, total(solution.energy.defect()), emitted, DEFECT);
+    let balance = Balance {
+        emitted: total(solution.energy.emitted),
+        meaning: "The flux of all emitters, summed over red, green and blue",
+        entries: entries(&solution.energy, Palette::of(ui.visuals())),
+        defect: total(solution.energy.defect()),
+        meaning_of_defect: DEFECT,
+    };
+    balance.show(ui);
     closure(ui, solution);
     reciprocity(ui, solution.closure.reciprocity);
     troubles(ui, &solution.counters);
