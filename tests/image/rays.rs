@@ -66,6 +66,52 @@ f 5 6 7 8
 }
 
 #[test]
+fn a_faint_mirror_image_is_right_on_average() {
+    let obj = "\
+mtllib m.mtl
+v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0
+usemtl mirror
+f 1 2 3 4
+v -0.1 -0.1 2\nv -0.1 0.1 2\nv 0.1 0.1 2\nv 0.1 -0.1 2
+usemtl lamp
+f 5 6 7 8
+";
+    let mtl = "newmtl mirror\nKd 0 0 0\nKs 0.1 0.1 0.1\nillum 3\nnewmtl lamp\nKd 0 0 0\nKe 7 7 7\n";
+    let world = scene(obj, mtl);
+    let to_image = camera(&world, Vec3::new(0.0, 0.5, 2.0), Vec3::new(0.0, 0.0, -2.0), Vec3::Y, 1.0);
+    let image = finished(&sources(&world), CameraView::RayTraced, to_image, [8, 8], &with_samples(256));
+    let got = mean(&image, [0.0, 1.0], [0.0, 1.0]).x;
+    // Two of five rays survive roulette: of 16,384 the mean is off by √(0.6 / 0.4 / 16384) = 1 %; 4 of these are allowed.
+    assert!((got / 0.7 - 1.0).abs() < 0.04, "{got}");
+}
+
+#[test]
+fn a_lamp_in_glass_is_dimmed_by_the_solid_angle_that_widens_outside() {
+    let obj = "\
+mtllib m.mtl
+v -1 0 -1\nv 1 0 -1\nv 1 2 -1\nv -1 2 -1\nv -1 0 1\nv 1 0 1\nv 1 2 1\nv -1 2 1
+usemtl glass
+f 5 6 7 8\nf 2 1 4 3\nf 6 2 3 7\nf 1 5 8 4\nf 8 7 3 4\nf 1 2 6 5
+v -0.5 1 -0.5\nv -0.5 1 0.5\nv 0.5 1 0.5\nv 0.5 1 -0.5
+usemtl lamp
+f 9 10 11 12
+";
+    let mtl = "newmtl glass\nKd 0 0 0\nNi 1.5\nillum 7\nnewmtl lamp\nKd 0 0 0\nKe 3 3 3\n";
+    let world = scene(obj, mtl);
+    let down = camera(&world, Vec3::new(0.0, 4.0, 0.0), Vec3::ZERO, Vec3::NEG_Z, 1.0);
+    let image = finished(&sources(&world), CameraView::RayTraced, down, [4, 4], &with_samples(4));
+    // Along the normal 4 % are reflected, and L / n² is the same on both sides. Half a degree beside it, cosines differ by
+    // 4e-5.
+    let expected = 3.0 * 0.96 / (1.5 * 1.5);
+    let got = mean(&image, [0.0, 1.0], [0.0, 1.0]).x;
+    assert!((got / expected - 1.0).abs() < 1e-3, "{got} instead of {expected}");
+    // From within, nothing is lost.
+    let inside = camera(&world, Vec3::new(0.0, 1.5, 0.0), Vec3::ZERO, Vec3::NEG_Z, 1.0);
+    let image = finished(&sources(&world), CameraView::RayTraced, inside, [4, 4], &with_samples(4));
+    assert_eq!(mean(&image, [0.0, 1.0], [0.0, 1.0]).x, 3.0);
+}
+
+#[test]
 fn patterns_of_paths_split_the_picture_without_rest() {
     let world = builtin("cornell-box");
     let picture = |pattern: &str| {
