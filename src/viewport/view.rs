@@ -31,21 +31,25 @@ pub enum View {
     Camera(CameraView),
 }
 
+const NO_PHOTONS: &str = "This picture is read off photons, and there are none yet: press Run";
+
 impl View {
     /// What is missing for this view and how to get it; `None` where it can be drawn. What cannot be drawn is shown in
     /// plain grey.
     pub fn missing(self, light: &Light) -> Option<&'static str> {
-        let has_photons = light.photons.as_ref().is_some_and(|photons| !photons.photons.is_empty());
+        let photons = light.photons.as_deref();
+        let has_photons = photons.is_some_and(|photons| !photons.photons.is_empty());
+        let waits_for_photons = photons.is_some_and(|photons| photons.photons.is_empty() && !photons.is_complete);
         match self {
             Self::Photons | Self::KdTree if has_photons => None,
-            Self::Photons | Self::KdTree if light.photons.as_ref().is_some_and(|photons| photons.is_complete) => {
+            Self::Photons | Self::KdTree if photons.is_some() && !waits_for_photons => {
                 Some("No photon has landed: they are kept where a surface has a diffuse part")
             }
             Self::Photons | Self::KdTree => Some("There are no photons yet: press Run"),
+            // What shines itself may be seen already.
+            Self::Camera(view) if view.needs_photons() && waits_for_photons => Some(NO_PHOTONS),
             Self::Camera(view) if light.image_of(view).is_some() => None,
-            Self::Camera(view) if view.needs_photons() && !has_photons => {
-                Some("This picture is read off photons, and there are none yet: press Run")
-            }
+            Self::Camera(view) if view.needs_photons() && !has_photons => Some(NO_PHOTONS),
             Self::Camera(view) if view.needs_radiosity() && light.solution.is_none() => {
                 Some("This picture is read off a radiosity solution, and there is none yet: press Run")
             }

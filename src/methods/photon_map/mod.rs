@@ -113,7 +113,7 @@ impl PhotonMapping {
     /// Traces one batch of photons, all of it or nothing. When the photons of a pass are all there, the next step begins the
     /// next pass, if there is one.
     pub fn step(&mut self, cancel: &Cancel) -> Step {
-        if self.transport.emitters().is_empty() || (self.is_pass_complete() && !self.has_more_passes()) {
+        if self.transport.emitters().is_empty() || self.is_pass_complete() && !self.has_more_passes() {
             return Step::Converged;
         }
         let begins = self.is_pass_complete();
@@ -273,7 +273,7 @@ impl PhotonMapping {
 
     /// Whether all photons of the present pass are there.
     pub fn is_pass_complete(&self) -> bool {
-        self.position == self.length()
+        self.position == self.length() || self.transport.emitters().is_empty()
     }
 
     fn has_more_passes(&self) -> bool {
