@@ -10,6 +10,7 @@ pub mod camera;
 pub mod cancel;
 pub mod choice;
 pub mod cli;
+pub mod effects;
 pub mod errors;
 pub mod hard_cases;
 pub mod math;

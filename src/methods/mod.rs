@@ -1,11 +1,13 @@
 //! The ways to simulate light. Each is plain state and a step: no threads of its own, no clock, no file, no window.
 
+pub mod ambient_occlusion;
 pub mod image;
 pub mod photon_map;
 pub mod radiosity;
 mod settings;
 pub mod transport;
 
+pub use ambient_occlusion::{Falloff, OcclusionSettings, Range};
 pub use settings::{FormFactorMethod, ImageSettings, Kernel, PhotonSettings, Settings, Solver};
 
 use crate::cancel::Cancel;

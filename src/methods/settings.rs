@@ -1,5 +1,6 @@
 //! Everything that a run depends on, beside the scene.
 
+use super::ambient_occlusion::OcclusionSettings;
 use crate::choice::Choice;
 use crate::mesh::MeshSettings;
 use crate::solution::PathFilter;
@@ -25,6 +26,7 @@ pub struct Settings {
     pub seed: u64,
     pub photons: PhotonSettings,
     pub image: ImageSettings,
+    pub occlusion: OcclusionSettings,
 }
 
 /// How light is followed as photons, and how it is read off them.
@@ -145,8 +147,8 @@ impl Settings {
 
     /// Whether radiosity may go on with `other` instead: all but its stop rule, and what photons and cameras do, is the same.
     pub fn is_same_radiosity(&self, other: &Self) -> bool {
-        let Self { unshot_limit, photons, image, .. } = *other;
-        Self { unshot_limit, photons, image, ..*self } == *other
+        let Self { unshot_limit, photons, image, occlusion, .. } = *other;
+        Self { unshot_limit, photons, image, occlusion, ..*self } == *other
     }
 }
 
@@ -164,6 +166,7 @@ impl Default for Settings {
             seed: 0,
             photons: PhotonSettings::default(),
             image: ImageSettings::default(),
+            occlusion: OcclusionSettings::default(),
         }
     }
 }
