@@ -79,11 +79,16 @@ impl Tracer {
 
     /// The first surface along the ray, if any.
     pub fn closest(&self, ray: &Ray) -> Option<Hit> {
+        self.closest_within(ray, f32::INFINITY)
+    }
+
+    /// The first surface along the ray that is not farther away than `reach`, m.
+    pub fn closest_within(&self, ray: &Ray, reach: f32) -> Option<Hit> {
         let mut origin = self.to_frame(ray.origin);
         // From far away the slabs of a box would round to more than its padding: start near the scene instead.
         let skipped = (origin.length() - 2.0 * FRAME_RADIUS).max(0.0);
         origin += skipped * ray.direction;
-        let frame_ray = frame_ray(origin, ray.direction, f32::INFINITY);
+        let frame_ray = frame_ray(origin, ray.direction, (reach * self.frame_from_world - skipped).max(0.0));
         let shear = Shear::new(&frame_ray);
         let mut found = RayHit::none();
         let hit = self.bvh.ray_traverse(frame_ray, &mut found, |ray, i| shear.intersect(&self.triangles[i], ray));
@@ -95,6 +100,13 @@ impl Tracer {
                 is_front: self.triangles[i].normal().dot(ray.direction) < 0.0,
             }
         })
+    }
+
+    /// Whether a ray meets nothing that is not farther away than `reach`, m. It must start in the scene or near it.
+    pub fn is_free(&self, ray: &Ray, reach: f32) -> bool {
+        let ray = frame_ray(self.to_frame(ray.origin), ray.direction, reach * self.frame_from_world);
+        let shear = Shear::new(&ray);
+        self.bvh.ray_traverse_miss(ray, |ray, i| shear.intersect(&self.triangles[i], ray))
     }
 
     /// Whether nothing stands between two points. Both should be off their surfaces: see [`Tracer::lift`].

@@ -50,6 +50,9 @@ pub const CAUSTICS: KeyboardShortcut = KeyboardShortcut::new(Modifiers::SHIFT, K
 pub const RAY_TRACED: KeyboardShortcut = KeyboardShortcut::new(Modifiers::SHIFT, Key::Num2);
 pub const RADIOSITY_SPECULAR: KeyboardShortcut = KeyboardShortcut::new(Modifiers::SHIFT, Key::Num3);
 pub const FINAL_GATHER: KeyboardShortcut = KeyboardShortcut::new(Modifiers::SHIFT, Key::Num4);
+pub const AMBIENT_OCCLUSION: KeyboardShortcut = KeyboardShortcut::new(Modifiers::SHIFT, Key::Num5);
+pub const DIFFUSE: KeyboardShortcut = KeyboardShortcut::new(Modifiers::SHIFT, Key::Num6);
+pub const DIFFUSE_AMBIENT: KeyboardShortcut = KeyboardShortcut::new(Modifiers::SHIFT, Key::Num7);
 pub const WIREFRAME: KeyboardShortcut = key(Key::W);
 pub const SHOOTER: KeyboardShortcut = key(Key::O);
 pub const TICKS: KeyboardShortcut = key(Key::T);
@@ -96,6 +99,15 @@ pub const BINDINGS: &[Binding] = &[
         view(model, View::Camera(CameraView::RadiositySpecular))
     }),
     Binding::new(FINAL_GATHER, "View: final gather", |model| view(model, View::Camera(CameraView::FinalGather))),
+    Binding::new(AMBIENT_OCCLUSION, "View: ambient occlusion", |model| {
+        view(model, View::Camera(CameraView::AmbientOcclusion))
+    }),
+    Binding::new(DIFFUSE, "View: diffuse colour in direct light", |model| {
+        view(model, View::Camera(CameraView::Diffuse))
+    }),
+    Binding::new(DIFFUSE_AMBIENT, "View: the same with ambient occlusion", |model| {
+        view(model, View::Camera(CameraView::DiffuseAmbient))
+    }),
     Binding::new(WIREFRAME, "Show or hide the elements' edges", |model| {
         Some(Action::SetLook(Look { wireframe: !model.look.wireframe, ..model.look }))
     }),
@@ -142,6 +154,9 @@ pub fn of_view(view: View) -> KeyboardShortcut {
         View::Camera(CameraView::RayTraced) => RAY_TRACED,
         View::Camera(CameraView::RadiositySpecular) => RADIOSITY_SPECULAR,
         View::Camera(CameraView::FinalGather) => FINAL_GATHER,
+        View::Camera(CameraView::AmbientOcclusion) => AMBIENT_OCCLUSION,
+        View::Camera(CameraView::Diffuse) => DIFFUSE,
+        View::Camera(CameraView::DiffuseAmbient) => DIFFUSE_AMBIENT,
     }
 }
 

@@ -11,6 +11,7 @@ pub enum ViewGroup {
     Radiosity,
     PhotonMap,
     Rays,
+    Ambient,
 }
 
 impl ViewGroup {
@@ -22,6 +23,9 @@ impl ViewGroup {
                 Self::PhotonMap
             }
             View::Camera(CameraView::RayTraced | CameraView::RadiositySpecular | CameraView::FinalGather) => Self::Rays,
+            View::Camera(CameraView::AmbientOcclusion | CameraView::Diffuse | CameraView::DiffuseAmbient) => {
+                Self::Ambient
+            }
             View::Patches | View::Smooth | View::Unshot | View::Absorbed | View::Bounces | View::FormFactors => {
                 Self::Radiosity
             }
@@ -39,12 +43,13 @@ impl ViewGroup {
             Self::Radiosity => View::Smooth,
             Self::PhotonMap => View::Photons,
             Self::Rays => View::Camera(CameraView::RayTraced),
+            Self::Ambient => View::Camera(CameraView::AmbientOcclusion),
         }
     }
 }
 
 impl Choice for ViewGroup {
-    const ALL: &'static [Self] = &[Self::Radiosity, Self::PhotonMap, Self::Rays];
+    const ALL: &'static [Self] = &[Self::Radiosity, Self::PhotonMap, Self::Rays, Self::Ambient];
     const KIND: &'static str = "group of views";
 
     fn name(self) -> &'static str {
@@ -52,6 +57,7 @@ impl Choice for ViewGroup {
             Self::Radiosity => "radiosity",
             Self::PhotonMap => "photon-map",
             Self::Rays => "ray-tracing",
+            Self::Ambient => "ambient",
         }
     }
 
@@ -60,6 +66,7 @@ impl Choice for ViewGroup {
             Self::Radiosity => "Radiosity",
             Self::PhotonMap => "Photon map",
             Self::Rays => "Ray tracing",
+            Self::Ambient => "Ambient",
         }
     }
 
@@ -68,6 +75,7 @@ impl Choice for ViewGroup {
             Self::Radiosity => "Light on every element, the same from everywhere",
             Self::PhotonMap => "Photons where they landed, and what is read off them",
             Self::Rays => "Pictures from the camera by rays, with mirrors and glass",
+            Self::Ambient => "Even light from everywhere, as far as nothing stands near: a guess at indirect light",
         }
     }
 }

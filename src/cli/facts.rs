@@ -115,7 +115,12 @@ impl Facts {
         if view.samples_emitters() {
             self.add("Light rays", settings.image.light_rays);
         }
-        if !view.needs_radiosity() && !settings.image.filter.passes_all() {
+        if view.is_occluded() {
+            self.add("Ambient rays", settings.occlusion.rays);
+            self.add("Ambient fall-off", settings.occlusion.falloff.name());
+            self.add("Ambient distance", settings.occlusion.range);
+        }
+        if view.has_paths() && !settings.image.filter.passes_all() {
             self.add("Paths", settings.image.filter.as_str());
         }
         if let Some(CameraImage { samples, rays, elapsed, .. }) = light.image_of(view).map(|image| &**image) {

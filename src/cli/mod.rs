@@ -6,6 +6,7 @@ mod facts;
 mod form_factor;
 mod image_options;
 mod inspect;
+mod occlusion_options;
 mod photon_options;
 pub mod picture;
 mod probe;

@@ -22,12 +22,28 @@ pub enum CameraView {
     RadiositySpecular,
     /// Direct and specular rays, a caustic map, and diffuse rays that end in the photon map (Jensen 1996).
     FinalGather,
+    /// The share of an even light from everywhere that arrives, in [0, 1], and nothing else.
+    AmbientOcclusion,
+    /// The first surface's diffuse colour in the direct light; where nothing emits, in an even light of radiance 1.
+    Diffuse,
+    /// The same with the ambient light, as far as it is not occluded: in place of light between surfaces.
+    DiffuseAmbient,
 }
 
 impl CameraView {
     /// Whether the picture is read off a map of photons.
     pub fn needs_photons(self) -> bool {
-        !matches!(self, Self::RayTraced | Self::RadiositySpecular)
+        matches!(self, Self::PhotonIrradiance | Self::PhotonRadiance | Self::Caustics | Self::FinalGather)
+    }
+
+    /// Whether ambient occlusion is a part of it.
+    pub fn is_occluded(self) -> bool {
+        matches!(self, Self::AmbientOcclusion | Self::DiffuseAmbient)
+    }
+
+    /// Whether the paths of its light can be told apart.
+    pub fn has_paths(self) -> bool {
+        !matches!(self, Self::RadiositySpecular | Self::AmbientOcclusion | Self::Diffuse | Self::DiffuseAmbient)
     }
 
     /// Whether the picture is read off a radiosity solution.
@@ -37,7 +53,7 @@ impl CameraView {
 
     /// Whether shadow rays find the light of the emitters.
     pub fn samples_emitters(self) -> bool {
-        matches!(self, Self::RayTraced | Self::FinalGather)
+        matches!(self, Self::RayTraced | Self::FinalGather | Self::Diffuse | Self::DiffuseAmbient)
     }
 }
 
@@ -49,6 +65,9 @@ impl Choice for CameraView {
         Self::RayTraced,
         Self::RadiositySpecular,
         Self::FinalGather,
+        Self::AmbientOcclusion,
+        Self::Diffuse,
+        Self::DiffuseAmbient,
     ];
     const KIND: &'static str = "view from a camera";
 
@@ -60,6 +79,9 @@ impl Choice for CameraView {
             Self::RayTraced => "ray-traced",
             Self::RadiositySpecular => "radiosity-specular",
             Self::FinalGather => "final-gather",
+            Self::AmbientOcclusion => "ambient-occlusion",
+            Self::Diffuse => "diffuse",
+            Self::DiffuseAmbient => "diffuse-ao",
         }
     }
 
@@ -71,6 +93,9 @@ impl Choice for CameraView {
             Self::RayTraced => "Ray-traced",
             Self::RadiositySpecular => "Radiosity + specular",
             Self::FinalGather => "Final gather",
+            Self::AmbientOcclusion => "Ambient occlusion",
+            Self::Diffuse => "Diffuse",
+            Self::DiffuseAmbient => "Diffuse + AO",
         }
     }
 
@@ -82,6 +107,9 @@ impl Choice for CameraView {
             Self::RayTraced => "Direct light, mirrors and glass; no light between diffuse surfaces",
             Self::RadiositySpecular => "Radiosity seen directly, with mirrors, gloss and glass traced on top",
             Self::FinalGather => "Direct and specular light by rays, diffuse light gathered from the photon map",
+            Self::AmbientOcclusion => "Share of an even light from everywhere that arrives: no emitter is needed",
+            Self::Diffuse => "Diffuse colour in direct light, or in even light where nothing emits",
+            Self::DiffuseAmbient => "The same, with ambient light where it is not occluded",
         }
     }
 }

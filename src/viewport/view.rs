@@ -65,7 +65,7 @@ impl View {
 
     /// Whether colours stand for numbers. Exposure and tone curve do not change them.
     pub fn is_false_colour(self) -> bool {
-        matches!(self, Self::FormFactors) || self.shows_photons()
+        matches!(self, Self::FormFactors | Self::Camera(CameraView::AmbientOcclusion)) || self.shows_photons()
     }
 
     /// Whether single photons are drawn.
@@ -90,6 +90,9 @@ impl Choice for View {
         Self::Camera(CameraView::RayTraced),
         Self::Camera(CameraView::RadiositySpecular),
         Self::Camera(CameraView::FinalGather),
+        Self::Camera(CameraView::AmbientOcclusion),
+        Self::Camera(CameraView::Diffuse),
+        Self::Camera(CameraView::DiffuseAmbient),
     ];
     const KIND: &'static str = "view";
 

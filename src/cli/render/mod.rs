@@ -6,6 +6,7 @@ mod views;
 
 use super::camera_options::CameraOptions;
 use super::image_options::ImageOptions;
+use super::occlusion_options::OcclusionOptions;
 use super::photon_options::PhotonOptions;
 use super::run_options::RunOptions;
 use super::{CliError, picture, refuse, values};
@@ -26,7 +27,7 @@ pub struct Options {
     output: PathBuf,
     /// What to show: patches, smooth, unshot, absorbed, bounces or form-factors of radiosity; photons or kd-tree;
     /// photon-irradiance, photon-radiance, caustics, ray-traced, radiosity-specular or final-gather by rays from the
-    /// camera; the diagrams matrix or item-buffer
+    /// camera; ambient-occlusion, diffuse or diffuse-ao with even light from everywhere; the diagrams matrix or item-buffer
     #[arg(long, default_value = View::default().name(), value_parser = Subject::parse)]
     view: Subject,
     /// How many bounces of light the view `bounces` shows
@@ -52,6 +53,8 @@ pub struct Options {
     photons: PhotonOptions,
     #[command(flatten)]
     image: ImageOptions,
+    #[command(flatten)]
+    occlusion: OcclusionOptions,
     #[command(flatten)]
     camera: CameraOptions,
     /// Print one JSON object and nothing else
@@ -95,6 +98,7 @@ impl Options {
         let light_rays = if self.view.is_radiosity() { settings.light_rays } else { Settings::default().light_rays };
         let own = self.run.light_rays.filter(|_| self.view.samples_emitters());
         let image = self.image.settings(own);
-        Settings { light_rays, photons: self.photons.settings(), image, ..settings }
+        let occlusion = self.occlusion.settings();
+        Settings { light_rays, photons: self.photons.settings(), image, occlusion, ..settings }
     }
 }

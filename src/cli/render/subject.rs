@@ -61,7 +61,7 @@ impl Subject {
 
     /// Whether it can be of some paths of light only.
     fn has_paths(self) -> bool {
-        !self.is_radiosity()
+        !self.is_radiosity() && self.camera_view().is_none_or(CameraView::has_paths)
     }
 }
 
@@ -105,6 +105,11 @@ impl Options {
         }
         if self.image.gather_rays.is_some() && view.camera_view() != Some(CameraView::FinalGather) {
             return unused("--gather-rays");
+        }
+        if let Some(option) =
+            self.occlusion.given().filter(|_| !view.camera_view().is_some_and(CameraView::is_occluded))
+        {
+            return unused(option);
         }
         if self.image.paths.is_some() && !view.has_paths() {
             return unused("--paths");

@@ -1,6 +1,7 @@
 //! How much a hit takes away of the ambient light, by its distance.
 
 use crate::choice::Choice;
+use std::fmt;
 
 /// How ambient occlusion is computed.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -50,6 +51,16 @@ impl Range {
     }
 }
 
+impl fmt::Display for Range {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Automatic => write!(f, "{} of the scene's radius", Self::AUTOMATIC_SHARE),
+            Self::Metres(metres) => write!(f, "{metres} m"),
+            Self::Unlimited => f.write_str("unlimited"),
+        }
+    }
+}
+
 /// How occlusion fades with the distance t of what stands in the way, for a range D.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -77,6 +88,11 @@ impl Falloff {
             Self::Quadratic => 1.0 / (1.0 + x * x),
             Self::Exponential => (-x).exp(),
         }
+    }
+
+    /// Whether any hit within reach takes all light away, so that it does not matter where it is.
+    pub fn is_all_or_nothing(self, range: f32) -> bool {
+        self == Self::None || range.is_infinite()
     }
 
     /// Beyond this distance nothing is lost, m.

@@ -15,6 +15,8 @@ pub enum Use {
     Light,
     /// The direction of a diffuse ray.
     Gather,
+    /// The direction in which ambient light may come.
+    Ambient,
 }
 
 /// Random numbers from (seed, pixel, sample) alone. Points of each [`Use`] are low-discrepancy over all samples of a pixel,

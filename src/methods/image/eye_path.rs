@@ -31,6 +31,14 @@ pub trait DiffuseLight: Send + Sync {
     fn leaving(&self, seen: &Seen<'_>, draws: &mut Draws, scratch: &mut Scratch) -> (Rgb, u64);
 }
 
+/// What is seen along rays from the eye.
+pub trait Look: Send + Sync {
+    /// What a ray brings that starts in this glass.
+    fn look(&self, ray: Ray, media: Media, draws: &mut Draws, scratch: &mut Scratch) -> Sight;
+
+    fn transport(&self) -> &Transport;
+}
+
 /// Follows rays from the eye.
 pub struct EyePath {
     pub transport: Arc<Transport>,
@@ -62,16 +70,22 @@ struct Leg {
     to_eye: Path,
 }
 
-impl EyePath {
-    /// Radiance that arrives along a ray that starts in this glass: what surfaces emit and what their diffuse lobes send on, directly and over specular
-    /// lobes. At the first surfaces all of these are followed, later on one of them.
-    pub fn look(&self, ray: Ray, media: Media, draws: &mut Draws, scratch: &mut Scratch) -> Sight {
+impl Look for EyePath {
+    /// Radiance that arrives along the ray: what surfaces emit and what their diffuse lobes send on, directly and over
+    /// specular lobes. At the first surfaces all of these are followed, later on one of them.
+    fn look(&self, ray: Ray, media: Media, draws: &mut Draws, scratch: &mut Scratch) -> Sight {
         let leg = Leg { ray, throughput: Rgb::ONE, narrowing: 1.0, media, to_eye: Path::LIGHT };
         let mut sight = Sight::default();
         self.follow(&leg, &mut sight, draws, scratch);
         sight
     }
 
+    fn transport(&self) -> &Transport {
+        &self.transport
+    }
+}
+
+impl EyePath {
     fn follow(&self, leg: &Leg, sight: &mut Sight, draws: &mut Draws, scratch: &mut Scratch) {
         sight.rays += 1;
         let Some(surface) = self.transport.meet(&leg.ray) else { return };

@@ -1,7 +1,7 @@
 //! A picture in the making: coarse at first, then every pixel, then more samples of each.
 
 use super::draws::{Draws, Use};
-use super::eye_path::{EyePath, Sight};
+use super::eye_path::{Look, Sight};
 use crate::camera::{Camera, EyeRays};
 use crate::cancel::Cancel;
 use crate::math::rgb::Rgb;
@@ -101,7 +101,7 @@ impl Film {
     }
 
     /// Works on some tiles of the pass under way; false, and nothing changes, if stopped.
-    pub fn expose(&mut self, path: &EyePath, cancel: &Cancel) -> bool {
+    pub fn expose(&mut self, eye: &dyn Look, cancel: &Cancel) -> bool {
         let cell = self.cell();
         let resolution = self.size.map(|pixels| pixels.div_ceil(cell));
         let across = resolution[0].div_ceil(TILE) as usize;
@@ -109,7 +109,7 @@ impl Film {
         let range = self.tiles_done..(self.tiles_done + TILES_PER_STEP).min(tiles);
         let tile = |index: usize| Tile::new(index, across, resolution);
         let exposed: Vec<Option<Vec<Sight>>> =
-            range.clone().into_par_iter().map(|index| self.expose_tile(&tile(index), cell, path, cancel)).collect();
+            range.clone().into_par_iter().map(|index| self.expose_tile(&tile(index), cell, eye, cancel)).collect();
         let Some(exposed) = exposed.into_iter().collect::<Option<Vec<_>>>() else { return false };
         for (index, sights) in range.clone().zip(exposed) {
             self.keep(&tile(index), resolution[0], &sights);
@@ -121,7 +121,7 @@ impl Film {
         true
     }
 
-    fn expose_tile(&self, tile: &Tile, cell: u32, path: &EyePath, cancel: &Cancel) -> Option<Vec<Sight>> {
+    fn expose_tile(&self, tile: &Tile, cell: u32, eye: &dyn Look, cancel: &Cancel) -> Option<Vec<Sight>> {
         let mut sights = Vec::with_capacity((TILE * TILE) as usize);
         let mut scratch = Scratch::default();
         for y in tile.rows.clone() {
@@ -129,20 +129,20 @@ impl Film {
                 return None;
             }
             for x in tile.columns.clone() {
-                sights.push(self.sample([x, y], cell, path, &mut scratch));
+                sights.push(self.sample([x, y], cell, eye, &mut scratch));
             }
         }
         Some(sights)
     }
 
     /// One sample of a cell: of a coarse one in its middle, of a pixel anywhere in it.
-    fn sample(&self, at: [u32; 2], cell: u32, path: &EyePath, scratch: &mut Scratch) -> Sight {
+    fn sample(&self, at: [u32; 2], cell: u32, eye: &dyn Look, scratch: &mut Scratch) -> Sight {
         let [x, y] = at.map(|i| i * cell);
         let pixel = u64::from(y) * u64::from(self.size[0]) + u64::from(x);
         let mut draws = Draws::new(self.seed, pixel, self.samples());
         let inside = if cell == 1 { draws.spread(Use::Pixel, 0, 1) } else { Vec2::splat(0.5) };
         let place = Vec2::new(x as f32, y as f32) + inside * cell as f32;
-        path.look(self.eye_rays.through(place.to_array()), self.media, &mut draws, scratch)
+        eye.look(self.eye_rays.through(place.to_array()), self.media, &mut draws, scratch)
     }
 
     fn keep(&mut self, tile: &Tile, width: u32, sights: &[Sight]) {

@@ -1,6 +1,7 @@
 //! Pictures from a camera: rays go from the eye over specular surfaces to diffuse ones, whose light is known from shadow rays,
 //! from a radiosity solution, or from photons.
 
+mod ambient;
 mod arrivals;
 mod direct;
 mod draws;
@@ -16,8 +17,9 @@ use crate::methods::photon_map::PhotonMaps;
 use crate::methods::transport::{Media, Transport};
 use crate::methods::{ImageSettings, Settings, Step};
 use crate::solution::{CameraImage, CameraView, PathFilter, Solution};
+use ambient::{AmbientLook, Parts};
 use arrivals::ArrivalMaps;
-use eye_path::{DiffuseLight, EyePath};
+use eye_path::{DiffuseLight, EyePath, Look};
 use film::Film;
 use gather::GatherLight;
 use lights::{DirectLight, RadiosityLight};
@@ -34,6 +36,7 @@ pub struct Sources {
 }
 
 impl Sources {
+    /// What the diffuse surfaces of a view send on; `None` also where a view has no such light.
     fn light(&self, view: CameraView, settings: &ImageSettings) -> Option<Box<dyn DiffuseLight>> {
         let transport = self.transport.clone();
         Some(match view {
@@ -52,11 +55,22 @@ impl Sources {
                 light_rays: settings.light_rays,
                 matcher: settings.filter.matcher(),
             }),
+            CameraView::AmbientOcclusion | CameraView::Diffuse | CameraView::DiffuseAmbient => return None,
         })
     }
 
     fn photon_light(&self, shown: Shown, is_caustic: bool, settings: &ImageSettings) -> Option<PhotonLight> {
         Some(PhotonLight::new(self.photons.clone()?, shown, is_caustic, &settings.filter.matcher()))
+    }
+
+    fn look(&self, view: CameraView, settings: &Settings) -> Option<Arc<dyn Look>> {
+        let parts = match view {
+            CameraView::AmbientOcclusion => Parts::Occlusion,
+            CameraView::Diffuse => Parts::Diffuse { is_occluded: false },
+            CameraView::DiffuseAmbient => Parts::Diffuse { is_occluded: true },
+            _ => return Some(Arc::new(self.eye_path(view, &settings.image)?)),
+        };
+        Some(Arc::new(AmbientLook::new(self.transport.clone(), parts, settings)))
     }
 
     fn eye_path(&self, view: CameraView, settings: &ImageSettings) -> Option<EyePath> {
@@ -75,9 +89,9 @@ pub struct ImageRun {
     view: CameraView,
     camera: Camera,
     size: [u32; 2],
-    settings: ImageSettings,
+    settings: Settings,
     /// What is prepared of the light is shared by all pictures that are made of it.
-    path: Arc<EyePath>,
+    eye: Arc<dyn Look>,
     film: Film,
 }
 
@@ -90,25 +104,25 @@ impl ImageRun {
         size: [u32; 2],
         settings: &Settings,
     ) -> Option<Self> {
-        let path = Arc::new(sources.eye_path(view, &settings.image)?);
-        let film = Film::new(&camera, media_round(&path, &camera), size, settings.seed);
-        Some(Self { view, camera, size, settings: settings.image, path, film })
+        let eye = sources.look(view, settings)?;
+        let film = Film::new(&camera, media_round(&*eye, &camera), size, settings.seed);
+        Some(Self { view, camera, size, settings: *settings, eye, film })
     }
 
     /// The same view of the same light from elsewhere, before its first step.
     #[must_use]
     pub fn moved_to(&self, camera: Camera, size: [u32; 2]) -> Self {
-        let film = Film::new(&camera, media_round(&self.path, &camera), size, self.film.seed());
-        Self { camera, size, film, path: self.path.clone(), ..*self }
+        let film = Film::new(&camera, media_round(&*self.eye, &camera), size, self.film.seed());
+        Self { camera, size, film, eye: self.eye.clone(), ..*self }
     }
 
     /// Goes on with other light, so that the picture becomes the mean over both: for passes of photons. False, and nothing
     /// changes, where that light is not there.
     pub fn go_on_with(&mut self, sources: &Sources) -> bool {
-        let path = sources.eye_path(self.view, &self.settings);
-        let is_there = path.is_some();
-        if let Some(path) = path {
-            self.path = Arc::new(path);
+        let eye = sources.look(self.view, &self.settings);
+        let is_there = eye.is_some();
+        if let Some(eye) = eye {
+            self.eye = eye;
         }
         is_there
     }
@@ -125,10 +139,10 @@ impl ImageRun {
 
     /// Some tiles of the pass under way; all of it or nothing. The first passes are coarse.
     pub fn step(&mut self, cancel: &Cancel) -> Step {
-        if self.film.samples() >= self.settings.samples {
+        if self.film.samples() >= self.settings.image.samples {
             return Step::Converged;
         }
-        if self.film.expose(&self.path, cancel) { Step::Advanced } else { Step::Cancelled }
+        if self.film.expose(&*self.eye, cancel) { Step::Advanced } else { Step::Cancelled }
     }
 
     /// The picture so far; `None` before the first coarse pass is whole. Its `elapsed` is zero: whoever steps it holds the
@@ -145,12 +159,12 @@ impl ImageRun {
             samples: self.film.samples(),
             rays: self.film.rays(),
             elapsed: Duration::ZERO,
-            is_complete: self.film.samples() >= self.settings.samples,
+            is_complete: self.film.samples() >= self.settings.image.samples,
         })
     }
 }
 
 /// The glass that the eye of a camera is in.
-fn media_round(path: &EyePath, camera: &Camera) -> Media {
-    path.transport.media_at(camera.eye().as_vec3a())
+fn media_round(eye: &dyn Look, camera: &Camera) -> Media {
+    eye.transport().media_at(camera.eye().as_vec3a())
 }

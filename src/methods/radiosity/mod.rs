@@ -17,6 +17,7 @@ pub use pick::pick;
 pub use progressive::Progressive;
 pub use relax::{Relaxation, System};
 pub use sensor::irradiance_in_space;
+pub use surfaces::mean_indirect_irradiance;
 
 use crate::methods::{Method, Settings, Solver};
 use crate::world::World;

@@ -2,10 +2,22 @@
 
 use super::form_factor::Shot;
 use crate::cancel::Cancel;
-use crate::math::rgb::{Rgb64, total};
+use crate::math::rgb::{Rgb, Rgb64, total};
 use crate::mesh::{Mesh, Patch};
 use crate::solution::ElementLight;
 use crate::world::World;
+
+/// The irradiance that reflected light is expected to bring to the surfaces of a world on average, W/m²: all that will arrive
+/// if it spreads evenly, without what comes straight from the emitters. In a closed room Φ ρ̄ / (S (1 − ρ̄)).
+pub fn mean_indirect_irradiance(world: &World) -> Rgb {
+    let surfaces = Surfaces::new(world);
+    let area = surfaces.total_area();
+    if area == 0.0 {
+        return Rgb::ZERO;
+    }
+    let direct = surfaces.emitted * (1.0 - surfaces.escape_share) / area;
+    (surfaces.ambient(surfaces.emitted) - direct).as_vec3()
+}
 
 /// Areas, reflectances and emission of the patches, in their order.
 pub struct Surfaces {

@@ -75,8 +75,8 @@ impl<W: Workshop> Solver<W> {
             }
             self.configure_pictures(&old);
             if let Err(refused) = self.configure_radiosity(world) {
-                let Settings { photons, image, .. } = self.snapshot.settings;
-                self.snapshot.settings = Settings { photons, image, ..old };
+                let Settings { photons, image, occlusion, .. } = self.snapshot.settings;
+                self.snapshot.settings = Settings { photons, image, occlusion, ..old };
                 refusal = Some(refused);
             }
             self.snapshot.error = refusal.map(|refused| with_causes(&refused));
@@ -113,7 +113,10 @@ impl<W: Workshop> Solver<W> {
 
     /// Pictures go on where they only get more samples, or fewer. The same photons may be read off in another way.
     fn configure_pictures(&mut self, old: &Settings) {
-        let Settings { image, seed, photons, .. } = self.snapshot.settings;
+        let Settings { image, seed, photons, occlusion, .. } = self.snapshot.settings;
+        if occlusion != old.occlusion {
+            self.easel.forget(CameraView::is_occluded);
+        }
         if (PhotonSettings { passes: old.photons.passes, ..photons }) != old.photons {
             self.easel.forget(CameraView::needs_photons);
         }

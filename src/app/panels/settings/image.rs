@@ -11,7 +11,7 @@ pub fn show(ui: &mut Ui, view: CameraView, settings: Settings, actions: &mut Vec
     if view == CameraView::FinalGather {
         gather_rays(ui, settings, actions);
     }
-    if matches!(view, CameraView::RayTraced | CameraView::FinalGather | CameraView::RadiositySpecular) {
+    if view.samples_emitters() || view == CameraView::RadiositySpecular {
         light_rays(ui, settings, actions);
     }
 }

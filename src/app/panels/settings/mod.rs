@@ -3,6 +3,7 @@
 
 mod filter;
 mod image;
+mod occlusion;
 mod photons;
 mod radiosity;
 
@@ -18,8 +19,12 @@ use std::ops::RangeInclusive;
 pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     if let Subject::Camera(view) = model.subject() {
         image::show(ui, view, model.settings, actions);
+        if view.is_occluded() {
+            occlusion::show(ui, model, actions);
+        }
     }
-    if model.subject() != Subject::Radiosity {
+    let has_paths = model.subject().view().is_none_or(|view| view.has_paths() || view.needs_radiosity());
+    if model.subject() != Subject::Radiosity && has_paths {
         filter::show(ui, model, actions);
     }
     match model.light() {
