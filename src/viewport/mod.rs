@@ -240,7 +240,13 @@ impl Viewport {
     /// Says how the stored picture, of which this many texels lie along width and height, is shown.
     fn set_display(&mut self, frame: &Frame, span: [f32; 2]) {
         let is_picked = self.light.as_ref().is_some_and(|light| light.picked.is_some());
-        let (quantity, stored_per_unit) = self.stored();
+        let (quantity, stored_per_unit) = match self.stored() {
+            // Numbers without a unit.
+            (_, stored_per_unit) if self.shows_image && frame.view.is_false_colour() => {
+                (Quantity::Colour, stored_per_unit)
+            }
+            stored => stored,
+        };
         let (shown_per_unit, tone) = match quantity {
             Quantity::FluxDensity => (frame.exposure_ev.exp2(), frame.tone),
             Quantity::Colour => (1.0, ToneCurve::Linear),

@@ -24,7 +24,7 @@ const FAR: f32 = 200.0;
 /// more than 1.4 a metre.
 const LIFTED: f64 = 1.2e-3;
 
-/// A closed form for each fall-off: occlusion by an infinite ceiling at height 1 with a range of 1 and of 2.
+/// A closed form for each fall-off: occlusion by an infinite ceiling at height 1 with a range.
 const UNDER_A_CEILING: [(Falloff, f32, f64); 5] = [
     // 1 − (h/D)²
     (Falloff::None, 2.0, 0.75),
@@ -35,7 +35,7 @@ const UNDER_A_CEILING: [(Falloff, f32, f64); 5] = [
     // 2 E₃(1)
     (Falloff::Exponential, 1.0, 0.219_383_934_395_520),
     // The ceiling is out of reach.
-    (Falloff::None, 1.0, 0.0),
+    (Falloff::None, 0.9, 0.0),
 ];
 
 fn transport(obj: &str) -> Arc<Transport> {
