@@ -254,14 +254,14 @@ impl Explorer {
                 self.pick_photons(photon, self.pane.spot_at(at).filter(|_| photon.is_none()));
             }
             // What rays bring to a point is not kept.
-            ViewGroup::Rays | ViewGroup::Ambient => {}
+            ViewGroup::Rays | ViewGroup::Occlusion => {}
         }
     }
 
     fn unpick(&self) {
         match ViewGroup::of(self.look.view) {
             ViewGroup::Radiosity => self.worker.send(Command::Pick(None)),
-            ViewGroup::PhotonMap | ViewGroup::Rays | ViewGroup::Ambient => self.pick_photons(None, None),
+            ViewGroup::PhotonMap | ViewGroup::Rays | ViewGroup::Occlusion => self.pick_photons(None, None),
         }
     }
 

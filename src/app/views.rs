@@ -11,7 +11,7 @@ pub enum ViewGroup {
     Radiosity,
     PhotonMap,
     Rays,
-    Ambient,
+    Occlusion,
 }
 
 impl ViewGroup {
@@ -24,7 +24,7 @@ impl ViewGroup {
             }
             View::Camera(CameraView::RayTraced | CameraView::RadiositySpecular | CameraView::FinalGather) => Self::Rays,
             View::Camera(CameraView::AmbientOcclusion | CameraView::Diffuse | CameraView::DiffuseAmbient) => {
-                Self::Ambient
+                Self::Occlusion
             }
             View::Patches | View::Smooth | View::Unshot | View::Absorbed | View::Bounces | View::FormFactors => {
                 Self::Radiosity
@@ -43,13 +43,13 @@ impl ViewGroup {
             Self::Radiosity => View::Smooth,
             Self::PhotonMap => View::Photons,
             Self::Rays => View::Camera(CameraView::RayTraced),
-            Self::Ambient => View::Camera(CameraView::AmbientOcclusion),
+            Self::Occlusion => View::Camera(CameraView::AmbientOcclusion),
         }
     }
 }
 
 impl Choice for ViewGroup {
-    const ALL: &'static [Self] = &[Self::Radiosity, Self::PhotonMap, Self::Rays, Self::Ambient];
+    const ALL: &'static [Self] = &[Self::Radiosity, Self::PhotonMap, Self::Rays, Self::Occlusion];
     const KIND: &'static str = "group of views";
 
     fn name(self) -> &'static str {
@@ -57,7 +57,7 @@ impl Choice for ViewGroup {
             Self::Radiosity => "radiosity",
             Self::PhotonMap => "photon-map",
             Self::Rays => "ray-tracing",
-            Self::Ambient => "ambient",
+            Self::Occlusion => "occlusion",
         }
     }
 
@@ -66,7 +66,7 @@ impl Choice for ViewGroup {
             Self::Radiosity => "Radiosity",
             Self::PhotonMap => "Photon map",
             Self::Rays => "Ray tracing",
-            Self::Ambient => "Ambient",
+            Self::Occlusion => "Occlusion",
         }
     }
 
@@ -75,7 +75,7 @@ impl Choice for ViewGroup {
             Self::Radiosity => "Light on every element, the same from everywhere",
             Self::PhotonMap => "Photons where they landed, and what is read off them",
             Self::Rays => "Pictures from the camera by rays, with mirrors and glass",
-            Self::Ambient => "Even light from everywhere, as far as nothing stands near: a guess at indirect light",
+            Self::Occlusion => "Even light from everywhere, as far as nothing stands near: a guess at indirect light",
         }
     }
 }

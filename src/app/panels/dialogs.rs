@@ -149,7 +149,6 @@ fn keys(ui: &mut Ui, actions: &mut Vec<Action>) {
             ui.add_space(4.0 * UNIT);
         }
     });
-    ui.add_space(2.0 * UNIT);
     heading(ui, "Mouse in the viewport");
     let mouse = [
         ("Drag", "Turn around the scene"),
