@@ -1,7 +1,9 @@
 //! `lightwell inspect`: what a scene holds, and what was wrong with it.
 
+use super::plan::effects;
 use super::{CliError, values};
 use crate::cancel::Cancel;
+use crate::effects::plan;
 use crate::mesh::MeshSettings;
 use crate::scene::{Scene, Severity};
 use crate::world::World;
@@ -56,6 +58,7 @@ fn report(world: &World) -> Value {
         "emitters": emitters(world),
         "extent": { "min": world.bounds.min.to_array(), "max": world.bounds.max.to_array() },
         "closed": world.is_closed(),
+        "effects": effects(&plan(world)),
         "viewpoint": {
             "eye": view.eye.to_array(),
             "target": view.target.to_array(),

@@ -9,6 +9,7 @@ mod inspect;
 mod occlusion_options;
 mod photon_options;
 pub mod picture;
+mod plan;
 mod probe;
 mod render;
 mod run_options;
@@ -62,6 +63,8 @@ pub enum Command {
     FormFactor(form_factor::Options),
     /// Print what a scene holds and what was wrong with it
     Inspect(inspect::Options),
+    /// Print which effects of light a scene calls for, and how it is best computed
+    Plan(plan::Options),
     /// Run the gallery of hard cases and print how each went
     Check(check::Options),
     /// List the built-in scenes
@@ -79,6 +82,7 @@ impl Command {
             Self::Probe(options) => probe::run(options),
             Self::FormFactor(options) => form_factor::run(options),
             Self::Inspect(options) => inspect::run(options),
+            Self::Plan(options) => plan::run(options),
             Self::Check(options) => check::run(options),
             Self::Scenes(options) => scenes::run(options),
         }

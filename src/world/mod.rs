@@ -1,14 +1,17 @@
 //! The world: a scene made ready for light. It is built once and never changes.
 
 mod ceiling;
+mod census;
 mod emitters;
 mod exposure;
 mod occluders;
+mod planes;
 mod sides;
 mod surface;
 mod viewpoint;
 
 pub use ceiling::with_ceiling_light;
+pub use census::Census;
 pub use exposure::is_covered;
 
 use crate::cancel::{Cancel, Cancelled};
@@ -41,6 +44,8 @@ pub struct World {
     /// Whether anything may stand between two points that light reaches. If not, whatever faces each other sees each other
     /// whole, as far as rays can tell: they start off a surface by more than anything here is out of place.
     pub has_occluders: bool,
+    /// What light meets.
+    pub census: Census,
     /// Longest edge of an element, m.
     pub element_size: f32,
     /// For each side, as in [`Mesh::sides`], whether light can reach it.
@@ -83,12 +88,15 @@ impl World {
         let bounds = Bounds::of(surfaces.corners());
         let start = scene.viewpoint.unwrap_or_else(|| viewpoint::most_open(&bounds, &tracer));
         let Reach { is_reached, escape_share, rooms } = sides::explore(&scene, &surfaces, &tracer, start.eye, cancel)?;
-        findings.extend(emitters::hidden(&scene, &surfaces, &tracer));
+        let hidden = emitters::hidden(&scene, &surfaces, &tracer);
+        let unseen_emitters = hidden.len();
+        findings.extend(hidden);
         scene.findings.extend::<Vec<Finding>>(findings);
         let viewpoint =
             scene.viewpoint.unwrap_or_else(|| viewpoint::choose(&bounds, &surfaces, &tracer, &is_reached, &rooms));
         let tolerance = tracer.offset().min(TOUCHING * bounds.radius());
         let has_occluders = occluders::may_exist(&surfaces, &is_reached, tolerance.into());
+        let census = Census::take(&scene, &surfaces, &is_reached, unseen_emitters, tolerance.into());
         let (mesh, element_size) = mesh(&scene, &surfaces, &tracer, &is_reached, settings, cancel)?;
         Ok(Self {
             scene: Arc::new(scene),
@@ -98,6 +106,7 @@ impl World {
             viewpoint,
             escape_share,
             has_occluders,
+            census,
             element_size,
             is_reached: is_reached.into(),
         })
@@ -123,6 +132,7 @@ impl World {
             viewpoint: self.viewpoint,
             escape_share: self.escape_share,
             has_occluders: self.has_occluders,
+            census: self.census,
             element_size,
             is_reached: self.is_reached.clone(),
         })

@@ -6,39 +6,12 @@
 //! crosses a line, since each lies in one of the planes that bound K; and what light does not reach crosses none if it is
 //! behind one of them.
 
+use super::planes::Plane;
 use super::surface::Surfaces;
-use glam::{DVec3, Vec3A};
 
 /// Where there are more pairs of a plane and a corner than this, something is taken to stand somewhere: looking at all
 /// of them would take longer than a few hundredths of a second.
 const MOST_PAIRS: usize = 1 << 23;
-
-/// The plane of a side.
-#[derive(Clone, Copy, PartialEq)]
-struct Plane {
-    /// Unit, on the side's own side.
-    normal: DVec3,
-    /// Distance from the origin along the normal, m.
-    offset: f64,
-}
-
-impl Plane {
-    fn new(surfaces: &Surfaces, side: usize) -> Self {
-        let normal = surfaces.normal(side).as_dvec3();
-        let corners = surfaces.corners_of(side / 2);
-        let sum: f64 = corners.iter().map(|corner| corner.as_dvec3().dot(normal)).sum();
-        Self { normal, offset: sum / corners.len() as f64 }
-    }
-
-    /// m
-    fn height(&self, point: Vec3A) -> f64 {
-        point.as_dvec3().dot(self.normal) - self.offset
-    }
-
-    fn key(&self) -> [u64; 4] {
-        [self.normal.x, self.normal.y, self.normal.z, self.offset].map(|number| (number + 0.0).to_bits())
-    }
-}
 
 /// False if nothing crosses a line between two points of sides that light reaches by more than `tolerance`, m. True if
 /// something may: nothing is traced, so that it costs next to nothing.

@@ -1,0 +1,56 @@
+//! Planes of sides, and what they alone tell of who can see whom.
+
+use super::surface::Surfaces;
+use glam::{DVec3, Vec3A};
+
+/// Where there are more pairs of sides than this to look at, two are taken to see each other: more would take longer
+/// than a few thousandths of a second.
+const MOST_PAIRS: usize = 1 << 17;
+
+/// The plane of a side.
+#[derive(Clone, Copy, PartialEq)]
+pub struct Plane {
+    /// Unit, on the side's own side.
+    normal: DVec3,
+    /// Distance from the origin along the normal, m.
+    offset: f64,
+}
+
+impl Plane {
+    pub fn new(surfaces: &Surfaces, side: usize) -> Self {
+        let normal = surfaces.normal(side).as_dvec3();
+        let corners = surfaces.corners_of(side / 2);
+        let sum: f64 = corners.iter().map(|corner| corner.as_dvec3().dot(normal)).sum();
+        Self { normal, offset: sum / corners.len() as f64 }
+    }
+
+    /// m
+    pub fn height(&self, point: Vec3A) -> f64 {
+        point.as_dvec3().dot(self.normal) - self.offset
+    }
+
+    /// Equal where planes are.
+    pub fn key(&self) -> [u64; 4] {
+        [self.normal.x, self.normal.y, self.normal.z, self.offset].map(|number| (number + 0.0).to_bits())
+    }
+
+    /// Whether a corner is before the plane by more than `tolerance`, m.
+    fn faces(&self, corners: &[Vec3A], tolerance: f64) -> bool {
+        corners.iter().any(|&corner| self.height(corner) > tolerance)
+    }
+}
+
+/// False if no side of the first ones faces a side of the others that faces it, by more than `tolerance`, m. True if one may
+/// see another: what stands between is not looked for, and of too many pairs not all are.
+pub fn may_see(surfaces: &Surfaces, from: &[usize], to: &[usize], tolerance: f64) -> bool {
+    let mut pairs = 0;
+    from.iter().any(|&this| {
+        let plane = Plane::new(surfaces, this);
+        to.iter().any(|&other| {
+            pairs += 1;
+            pairs > MOST_PAIRS
+                || plane.faces(surfaces.corners_of(other / 2), tolerance)
+                    && Plane::new(surfaces, other).faces(surfaces.corners_of(this / 2), tolerance)
+        })
+    })
+}
