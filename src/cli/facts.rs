@@ -107,7 +107,7 @@ impl Facts {
         } else if view.needs_radiosity() {
             self.add_radiosity(light, settings);
         } else {
-            self.add("Method", "ray tracing");
+            self.add("Method", if view.is_light() { "ray tracing" } else { "ambient occlusion" });
         }
         if view == CameraView::FinalGather {
             self.add("Gather rays", settings.image.gather_rays);

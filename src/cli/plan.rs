@@ -75,9 +75,9 @@ fn text(world: &World, plan: &Plan) -> String {
         let (sign, tail) = if verdict.is_needed {
             ("needed", format!("If it were skipped: {}", verdict.if_missed))
         } else {
-            ("skipped", format!("Saved: {}", verdict.saves))
+            ("not needed", format!("Skipping it saves: {}", verdict.saves))
         };
-        text += &format!("{sign:7}  {:19}  {} {tail}\n", verdict.effect.name(), verdict.reason);
+        text += &format!("{sign:10}  {:19}  {} {tail}\n", verdict.effect.name(), verdict.reason);
     }
     plan.parts.iter().fold(text, |text, part| text + part + "\n")
 }

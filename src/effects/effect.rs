@@ -1,10 +1,10 @@
 //! The effects of light that can be simulated or skipped.
 
 use crate::choice::Choice;
+use std::fmt;
 
 /// Something that light does, and that costs time to simulate.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effect {
     /// Light that comes straight from emitters.
     DirectLight,
@@ -90,42 +90,12 @@ impl Choice for Effect {
 }
 
 /// A set of effects.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Copy, Default, PartialEq, Eq)]
 pub struct Effects(u16);
 
 impl Effects {
-    pub const NONE: Self = Self(0);
-    pub const ALL: Self = Self((1 << Effect::ALL.len()) - 1);
-
     pub fn contains(self, effect: Effect) -> bool {
         self.0 & Self::bit(effect) != 0
-    }
-
-    #[must_use]
-    pub fn with(self, effect: Effect) -> Self {
-        Self(self.0 | Self::bit(effect))
-    }
-
-    #[must_use]
-    pub fn without(self, effect: Effect) -> Self {
-        Self(self.0 & !Self::bit(effect))
-    }
-
-    /// All that are in one or the other.
-    #[must_use]
-    pub fn and(self, other: Self) -> Self {
-        Self(self.0 | other.0)
-    }
-
-    /// All that are not in the other.
-    #[must_use]
-    pub fn but(self, other: Self) -> Self {
-        Self(self.0 & !other.0)
-    }
-
-    /// In the order in which people are shown them.
-    pub fn iter(self) -> impl Iterator<Item = Effect> {
-        Effect::ALL.iter().copied().filter(move |&effect| self.contains(effect))
     }
 
     fn bit(effect: Effect) -> u16 {
@@ -135,6 +105,12 @@ impl Effects {
 
 impl FromIterator<Effect> for Effects {
     fn from_iter<I: IntoIterator<Item = Effect>>(effects: I) -> Self {
-        effects.into_iter().fold(Self::NONE, Self::with)
+        Self(effects.into_iter().fold(0, |bits, effect| bits | Self::bit(effect)))
+    }
+}
+
+impl fmt::Debug for Effects {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_set().entries(Effect::ALL.iter().filter(|&&effect| self.contains(effect))).finish()
     }
 }

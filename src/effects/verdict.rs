@@ -50,14 +50,14 @@ fn saves(effect: Effect) -> &'static str {
         Effect::Gloss => "All rays and photons that are spread over a lobe.",
         Effect::Transmission => "All rays and photons through surfaces.",
         Effect::Caustics => "The photons that meet specular surfaces first, and the search for them.",
-        Effect::Escape => "Keeping account of light that leaves.",
+        Effect::Escape => "The rays of every shot that look for a way out.",
         Effect::AmbientLight => "All rays that look for open sky.",
     }
 }
 
 fn if_missed(effect: Effect) -> &'static str {
     match effect {
-        Effect::DirectLight => "All but the emitters would be black, or lit as from behind a corner.",
+        Effect::DirectLight => "What emitters shine on would be lit by other surfaces alone.",
         Effect::Shadows => "Light would shine through whatever stands in its way.",
         Effect::Interreflection => "What no emitter shines on would be black, and nothing would tint its neighbour.",
         Effect::Colour => "All would be grey.",

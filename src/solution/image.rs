@@ -41,6 +41,11 @@ impl CameraView {
         matches!(self, Self::AmbientOcclusion | Self::DiffuseAmbient)
     }
 
+    /// Whether its values are light; if not, shares in [0, 1].
+    pub fn is_light(self) -> bool {
+        self != Self::AmbientOcclusion
+    }
+
     /// Whether the paths of its light can be told apart.
     pub fn has_paths(self) -> bool {
         !matches!(self, Self::RadiositySpecular | Self::AmbientOcclusion | Self::Diffuse | Self::DiffuseAmbient)
@@ -125,7 +130,7 @@ pub struct CameraImage {
     /// pixels then, and the last ones may reach past the edge.
     pub resolution: [u32; 2],
     /// L, W/(m²·sr), row by row from the top left, premultiplied with `coverage`: background counts as 0. For
-    /// [`CameraView::PhotonIrradiance`] E/π.
+    /// [`CameraView::PhotonIrradiance`] E/π; for [`CameraView::AmbientOcclusion`] the share of light that arrives.
     pub radiance: Vec<Rgb>,
     /// Share of each cell that shows a surface, in [0, 1]; the rest is background.
     pub coverage: Vec<f32>,

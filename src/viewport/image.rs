@@ -2,6 +2,7 @@
 
 use super::Gpu;
 use super::pipelines::{Pipelines, bind};
+use super::shading::Quantity;
 use super::targets;
 use crate::solution::CameraImage;
 use bytemuck::cast_slice;
@@ -43,6 +44,11 @@ impl ImageTexture {
             self.write(gpu);
         }
         fits
+    }
+
+    /// What its values are.
+    pub fn quantity(&self) -> Quantity {
+        if self.image.view.is_light() { Quantity::FluxDensity } else { Quantity::Colour }
     }
 
     /// How many cells lie along its width and height: the last ones may reach past the edge.

@@ -233,20 +233,15 @@ impl Viewport {
 
     /// What is stored in the picture that is presented: of what, and how much for a unit of it.
     fn stored(&self) -> (Quantity, f32) {
-        let surfaces = self.world.as_ref().filter(|_| !self.shows_image);
-        surfaces.map_or((Quantity::FluxDensity, 1.0), |world| (world.quantity, world.stored_per_unit))
+        let image = self.image.as_ref().filter(|_| self.shows_image).map(|image| (image.quantity(), 1.0));
+        let surfaces = || self.world.as_ref().map(|world| (world.quantity, world.stored_per_unit));
+        image.or_else(surfaces).unwrap_or((Quantity::FluxDensity, 1.0))
     }
 
     /// Says how the stored picture, of which this many texels lie along width and height, is shown.
     fn set_display(&mut self, frame: &Frame, span: [f32; 2]) {
         let is_picked = self.light.as_ref().is_some_and(|light| light.picked.is_some());
-        let (quantity, stored_per_unit) = match self.stored() {
-            // Numbers without a unit.
-            (_, stored_per_unit) if self.shows_image && frame.view.is_false_colour() => {
-                (Quantity::Colour, stored_per_unit)
-            }
-            stored => stored,
-        };
+        let (quantity, stored_per_unit) = self.stored();
         let (shown_per_unit, tone) = match quantity {
             Quantity::FluxDensity => (frame.exposure_ev.exp2(), frame.tone),
             Quantity::Colour => (1.0, ToneCurve::Linear),

@@ -65,7 +65,11 @@ impl View {
 
     /// Whether colours stand for numbers. Exposure and tone curve do not change them.
     pub fn is_false_colour(self) -> bool {
-        matches!(self, Self::FormFactors | Self::Camera(CameraView::AmbientOcclusion)) || self.shows_photons()
+        match self {
+            Self::FormFactors => true,
+            Self::Camera(view) => !view.is_light(),
+            _ => self.shows_photons(),
+        }
     }
 
     /// Whether single photons are drawn.

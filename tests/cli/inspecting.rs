@@ -62,7 +62,7 @@ fn a_plan_judges_all_effects_and_names_a_method() {
     }
     assert_contains(
         &printed(&folder, "plan furnace"),
-        &["furnace: radiosity", "skipped  shadows", "needed   direct-light"],
+        &["furnace: radiosity", "not needed  shadows", "needed      direct-light"],
     );
 }
 

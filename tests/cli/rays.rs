@@ -43,6 +43,34 @@ fn every_view_by_rays_is_written_and_tells_how_it_was_made() {
 }
 
 #[test]
+fn ambient_occlusion_tells_how_it_was_made_and_needs_no_lamp() {
+    if !can_draw() {
+        return;
+    }
+    let folder = folder();
+    let options = "--ao-rays 8 --ao-distance 0.2 --ao-falloff exponential --samples 2";
+    for view in ["ambient-occlusion", "diffuse-ao"] {
+        printed(&folder, &format!("render {SMALL} -o {view}.png --view {view} {options}"));
+        let texts = texts(&folder, &format!("{view}.png"));
+        for (name, value) in
+            [("Ambient rays", "8"), ("Ambient fall-off", "exponential"), ("Ambient distance", "0.2 m"), ("View", view)]
+        {
+            assert_eq!(texts.get(name).map(String::as_str), Some(value), "{view}: {name} in {texts:?}");
+        }
+        assert_eq!(texts.contains_key("Exposure"), view == "diffuse-ao");
+    }
+    let report = json(&folder, &format!("render {SMALL} -o a.png --view ambient-occlusion --samples 1 --json"));
+    assert_eq!(report["method"], "ambient-occlusion");
+    for (view, option) in
+        [("diffuse", "--ao-rays 8"), ("ray-traced", "--ao-distance unlimited"), ("smooth", "--ao-falloff none")]
+    {
+        let name = option.split(' ').next().expect("a name");
+        let refused = refusal(&folder, &format!("render {SMALL} -o a.png --view {view} {option}"), 2);
+        assert_contains(&refused, &[&format!("{name} is not for the view `{view}`")]);
+    }
+}
+
+#[test]
 fn a_report_tells_of_the_light_that_a_picture_is_read_off() {
     if !can_draw() {
         return;

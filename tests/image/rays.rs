@@ -40,9 +40,8 @@ fn direct_light_below_a_lamp_is_its_form_factor() {
     assert!((got / expected - Rgb::ONE).abs().max_element() < 1e-3, "{got} instead of {expected}");
 }
 
-#[test]
-fn a_mirror_shows_the_lamp_in_its_own_radiance() {
-    let obj = "\
+/// A mirror in the plane z = 0, and a lamp 2 m before it that shines on it.
+const MIRRORED_LAMP: &str = "\
 mtllib m.mtl
 v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0
 usemtl mirror
@@ -51,8 +50,11 @@ v -0.1 -0.1 2\nv -0.1 0.1 2\nv 0.1 0.1 2\nv 0.1 -0.1 2
 usemtl lamp
 f 5 6 7 8
 ";
+
+#[test]
+fn a_mirror_shows_the_lamp_in_its_own_radiance() {
     let mtl = "newmtl mirror\nKd 0 0 0\nKs 0.8 0.5 0.25\nillum 3\nnewmtl lamp\nKd 0 0 0\nKe 7 7 7\n";
-    let world = scene(obj, mtl);
+    let world = scene(MIRRORED_LAMP, mtl);
     // The mirrored lamp is at z = -2; seen from beside it past its edge.
     let eye = Vec3::new(0.0, 0.5, 2.0);
     let to_image = camera(&world, eye, Vec3::new(0.0, 0.0, -2.0), Vec3::Y, 1.0);
@@ -67,17 +69,8 @@ f 5 6 7 8
 
 #[test]
 fn a_faint_mirror_image_is_right_on_average() {
-    let obj = "\
-mtllib m.mtl
-v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0
-usemtl mirror
-f 1 2 3 4
-v -0.1 -0.1 2\nv -0.1 0.1 2\nv 0.1 0.1 2\nv 0.1 -0.1 2
-usemtl lamp
-f 5 6 7 8
-";
     let mtl = "newmtl mirror\nKd 0 0 0\nKs 0.1 0.1 0.1\nillum 3\nnewmtl lamp\nKd 0 0 0\nKe 7 7 7\n";
-    let world = scene(obj, mtl);
+    let world = scene(MIRRORED_LAMP, mtl);
     let to_image = camera(&world, Vec3::new(0.0, 0.5, 2.0), Vec3::new(0.0, 0.0, -2.0), Vec3::Y, 1.0);
     let image = finished(&sources(&world), CameraView::RayTraced, to_image, [8, 8], &with_samples(256));
     let got = mean(&image, [0.0, 1.0], [0.0, 1.0]).x;

@@ -82,6 +82,20 @@ fn exposure_and_tone_curve_work_as_on_radiosity() {
 }
 
 #[test]
+fn shares_are_shown_as_they_are_whatever_the_exposure() {
+    let Some(gpu) = gpu() else { return };
+    let world = square();
+    // Half of the light, and all of it: 188 and 255 in the encoding of sRGB.
+    let share = |cell: usize| (Rgb::splat(if cell.is_multiple_of(2) { 0.5 } else { 1.0 }), 1.0);
+    let view = CameraView::AmbientOcclusion;
+    let light = Light { image: Some(Arc::new(CameraImage { view, ..image(&world, SIZE, share) })), ..Light::default() };
+    let frame = Frame { exposure_ev: -3.0, tone: ToneCurve::Filmic, ..frame(&world, View::Camera(view)) };
+    let picture = render_picture(&gpu, &world, &light, &frame, 4).expect("a picture");
+    assert_eq!([picture.srgb[0][0], picture.srgb[1][0]], [188, 255]);
+    assert_eq!([picture.linear[0][0], picture.linear[1][0]], [0.5, 1.0]);
+}
+
+#[test]
 fn a_picture_of_another_view_is_not_shown() {
     let Some(gpu) = gpu() else { return };
     let world = square();

@@ -7,7 +7,7 @@ use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
 use lightwell::app::action::Action;
 use lightwell::app::model::Look;
-use lightwell::methods::{ImageSettings, PhotonSettings, Settings};
+use lightwell::methods::{ImageSettings, OcclusionSettings, PhotonSettings, Range, Settings};
 use lightwell::solution::{CameraView, PhotonSolution};
 use lightwell::viewport::{PhotonColour, PhotonLook, View};
 use lightwell::worker::{Command, Phase};
@@ -33,8 +33,20 @@ fn with_filter(pattern: &str) -> Action {
 
 #[test]
 fn settings_are_those_of_the_view() {
-    let all =
-        ["Solver", "Photons", "For caustics", "Nearest", "Kernel", "Samples", "Gather rays", "Shadow rays", "Paths"];
+    let all = [
+        "Solver",
+        "Photons",
+        "For caustics",
+        "Nearest",
+        "Kernel",
+        "Samples",
+        "Gather rays",
+        "Shadow rays",
+        "Paths",
+        "AO rays",
+        "Fall-off",
+        "Distance",
+    ];
     let expect = |view, shown: &[&str]| {
         for label in all {
             let harness = showing(view).window(LARGE);
@@ -47,10 +59,42 @@ fn settings_are_those_of_the_view() {
     expect(View::Photons, &["Photons", "For caustics", "Nearest", "Kernel", "Paths"]);
     let camera = View::Camera;
     expect(camera(CameraView::RayTraced), &["Samples", "Shadow rays", "Paths"]);
-    expect(camera(CameraView::RadiositySpecular), &["Samples", "Shadow rays", "Paths", "Solver"]);
+    expect(camera(CameraView::RadiositySpecular), &["Samples", "Shadow rays", "Solver"]);
     let photon_map = ["Photons", "For caustics", "Nearest", "Kernel", "Paths", "Samples"];
     expect(camera(CameraView::PhotonRadiance), &photon_map);
     expect(camera(CameraView::FinalGather), &[&photon_map[..], &["Gather rays", "Shadow rays"]].concat());
+    let occlusion = ["Samples", "AO rays", "Fall-off", "Distance"];
+    expect(camera(CameraView::AmbientOcclusion), &occlusion);
+    expect(camera(CameraView::Diffuse), &["Samples", "Shadow rays"]);
+    expect(camera(CameraView::DiffuseAmbient), &[&occlusion[..], &["Shadow rays"]].concat());
+}
+
+#[test]
+fn the_range_of_occlusion_is_drawn_or_said_to_be_unlimited() {
+    let stage = |range| {
+        let occlusion = OcclusionSettings { range, ..OcclusionSettings::default() };
+        Stage {
+            settings: Settings { occlusion, ..Settings::default() },
+            ..showing(View::Camera(CameraView::AmbientOcclusion))
+        }
+    };
+    let has_text = |range, text: &str| stage(range).window(LARGE).query_all_by_label_contains(text).next().is_some();
+    for (range, is_drawn, is_set, is_dark) in [
+        (Range::Automatic, true, false, false),
+        (Range::Metres(0.25), true, true, false),
+        (Range::Unlimited, false, false, true),
+    ] {
+        assert_eq!(has_text(range, "Occlusion over distance"), is_drawn, "{range:?}");
+        assert_eq!(is_shown(stage(range), "At most"), is_set, "{range:?}");
+        assert_eq!(has_text(range, "a closed room is black"), is_dark, "{range:?}");
+    }
+}
+
+#[test]
+fn exposure_is_offered_where_it_changes_something() {
+    for (view, is_offered) in [(CameraView::AmbientOcclusion, false), (CameraView::DiffuseAmbient, true)] {
+        assert_eq!(is_shown(showing(View::Camera(view)), "Automatic exposure"), is_offered, "{view:?}");
+    }
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use crate::fake::{self, BATCHES, Counts, Fakes};
 use crate::{load, look, look_from, median, steps, wait_for, wait_until};
-use lightwell::methods::{ImageSettings, Kernel, PhotonSettings, Settings, Step};
+use lightwell::methods::{ImageSettings, Kernel, OcclusionSettings, PhotonSettings, Settings, Step};
 use lightwell::solution::{CameraImage, CameraView};
 use lightwell::worker::{Command, Phase, Snapshot, Subject, Worker};
 use std::sync::Arc;
@@ -242,6 +242,23 @@ fn settings_of_pictures_start_only_pictures_anew_and_more_samples_not_even_these
     assert_eq!((Counts::of(&counts.radiosity_starts), Counts::of(&counts.photon_starts)), (1, 1));
     let (old, new) = (&before.photons, worker.latest().photons.clone());
     assert_eq!(old.as_ref().map(|photons| photons.batches), new.map(|photons| photons.batches));
+}
+
+#[test]
+fn settings_of_ambient_occlusion_start_only_its_pictures_anew() {
+    let (worker, counts) = Fakes::default().spawn();
+    let Settings { occlusion, image, .. } = load(&worker, "furnace").settings;
+    for (view, rays, more, new_starts) in [(CameraView::AmbientOcclusion, 3, 20, 1), (CameraView::Diffuse, 4, 24, 0)] {
+        look(&worker, Subject::Camera(view));
+        let before = finished(&worker, view);
+        let starts = Counts::of(&counts.image_starts);
+        let occlusion = OcclusionSettings { rays, ..occlusion };
+        let image = ImageSettings { samples: more, ..image };
+        worker.send(Command::Configure(Settings { occlusion, image, ..before.settings }));
+        wait_for(&worker, "refined", |now| samples(now) == more);
+        assert_eq!(Counts::of(&counts.image_starts), starts + new_starts, "{view:?}");
+    }
+    assert_eq!(Counts::of(&counts.radiosity_starts), 1);
 }
 
 #[test]

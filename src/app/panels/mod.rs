@@ -90,7 +90,9 @@ fn side_panel(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
             if model.look.view.shows_photons() {
                 widgets::section(ui, "Photons on show", |ui| photon_look::show(ui, model, actions));
             }
-            widgets::section(ui, "Exposure", |ui| exposure::show(ui, model, actions));
+            if !model.look.view.is_false_colour() {
+                widgets::section(ui, "Exposure", |ui| exposure::show(ui, model, actions));
+            }
             widgets::section(ui, "Settings", |ui| settings::show(ui, model, actions));
             findings::show(ui, model);
         });

@@ -1,6 +1,7 @@
 //! Views: of radiosity, of photons, and by rays from the camera.
 
 use super::{Drawn, Options, SAMPLES};
+use crate::choice::Choice;
 use crate::cli::run_options::Solved;
 use crate::cli::solve::report;
 use crate::cli::tracing::{Tracing, photon_report};
@@ -75,9 +76,12 @@ impl Options {
         let mut report = match (&solved, &photons) {
             (Some(solved), _) => report(solved),
             (None, Some(photons)) => photon_report(world, &settings, photons),
-            (None, None) => json!({ "scene": world.scene.name, "method": "ray-tracing" }),
+            (None, None) => {
+                let method = if view.is_light() { "ray-tracing" } else { view.name() };
+                json!({ "scene": world.scene.name, "method": method })
+            }
         };
-        report["picture"] = image_report(&image, frame.exposure_ev);
+        report["picture"] = image_report(&image, view.is_light().then_some(frame.exposure_ev));
         let light =
             Light { solution, photons: photons.map(Arc::new), image: Some(Arc::new(image)), ..Light::default() };
         self.draw(gpu, world, &settings, &light, &frame, report)
@@ -115,8 +119,8 @@ impl Options {
     }
 }
 
-/// What there is to say of a picture by rays.
-pub fn image_report(image: &CameraImage, exposure_ev: f32) -> Value {
+/// What there is to say of a picture by rays; `exposure_ev` where it is of light.
+pub fn image_report(image: &CameraImage, exposure_ev: Option<f32>) -> Value {
     json!({
         "exposure": exposure_ev,
         "samples": image.samples,

@@ -7,8 +7,7 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub struct OcclusionSettings {
-    /// Rays of one pass, from each vertex or from each place that a sample of a pixel sees. Passes are as many as samples a
-    /// pixel: [`crate::methods::ImageSettings::samples`].
+    /// Rays from the place that a sample of a pixel sees.
     pub rays: u32,
     pub range: Range,
     pub falloff: Falloff,

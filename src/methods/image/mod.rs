@@ -66,8 +66,8 @@ impl Sources {
     fn look(&self, view: CameraView, settings: &Settings) -> Option<Arc<dyn Look>> {
         let parts = match view {
             CameraView::AmbientOcclusion => Parts::Occlusion,
-            CameraView::Diffuse => Parts::Diffuse { is_occluded: false },
-            CameraView::DiffuseAmbient => Parts::Diffuse { is_occluded: true },
+            CameraView::Diffuse => Parts::Diffuse,
+            CameraView::DiffuseAmbient => Parts::DiffuseAmbient,
             _ => return Some(Arc::new(self.eye_path(view, &settings.image)?)),
         };
         Some(Arc::new(AmbientLook::new(self.transport.clone(), parts, settings)))

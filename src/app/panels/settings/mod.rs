@@ -12,6 +12,7 @@ use crate::app::action::Action;
 use crate::app::format;
 use crate::app::model::Model;
 use crate::methods::Settings;
+use crate::solution::CameraView;
 use crate::worker::{LightKind, Subject};
 use egui::{DragValue, Response, RichText, Ui};
 use std::ops::RangeInclusive;
@@ -23,8 +24,7 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
             occlusion::show(ui, model, actions);
         }
     }
-    let has_paths = model.subject().view().is_none_or(|view| view.has_paths() || view.needs_radiosity());
-    if model.subject() != Subject::Radiosity && has_paths {
+    if model.subject() != Subject::Radiosity && model.subject().view().is_none_or(CameraView::has_paths) {
         filter::show(ui, model, actions);
     }
     match model.light() {
