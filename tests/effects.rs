@@ -29,6 +29,8 @@ Ke 1 1 1
 newmtl warm
 Kd 0 0 0
 Ke 2 1 1
+newmtl yellow
+Kd 0.5 0.5 0.25
 newmtl mirror
 Kd 0 0 0
 Ks 0.9 0.9 0.9
@@ -163,6 +165,7 @@ fn an_empty_room_needs_no_shadows_and_a_grey_one_no_colour() {
     for (what, quads, more) in [
         ("grey", Quads::room("glow", "grey", "grey"), &[][..]),
         ("a red wall", Quads::room("glow", "grey", "red"), &[Colour]),
+        ("a yellow wall", Quads::room("glow", "grey", "yellow"), &[Colour]),
         ("a warm lamp", Quads::room("warm", "grey", "grey"), &[Colour]),
         ("a block", Quads::room("glow", "grey", "grey").block("grey"), &[Shadows]),
         ("red behind a wall", Quads::room("glow", "grey", "grey").down("red", 0.5, -0.5), &[]),
@@ -220,6 +223,10 @@ fn caustics_take_an_emitter_before_them_and_a_diffuse_surface_after_them() {
     };
     let above = [DirectLight, Shadows, Interreflection, SpecularReflection, Escape];
     assert_needed("a mirror behind the lamp", &behind(1.0), &above);
+    // Below a block the mirror is before the lamp, but shows it its back, which is inside.
+    let below = Quads::new().up("grey", 1.0, 0.0).down("lamp", 0.2, 1.0);
+    let below = below.up("black", 0.4, 0.6).around("black", 0.4, [0.5, 0.6], false).down("mirror", 0.4, 0.5);
+    assert_needed("a mirror that faces away from the lamp", &plan_of(below.scene()), &above);
 }
 
 #[test]
@@ -259,7 +266,7 @@ fn reasons_give_the_figures() {
         (Shadows, "Something may stand between two of the 12 polygons that light reaches."),
         (
             Interreflection,
-            "5 of 12 polygons reflect diffusely, with a reflectance from 0 to (0.5, 0.25, 0.25), and may face others.",
+            "5 of 12 polygons reflect diffusely, with a reflectance from 0 to (0.5, 0.25, 0.25), at least back to where their light comes from.",
         ),
         (Colour, "Red, green and blue differ in the materials of 5 of 12 polygons."),
         (SpecularReflection, "Of 12 polygons, 0 are mirrors and 6 glass, which reflects too."),

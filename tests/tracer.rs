@@ -143,3 +143,22 @@ fn an_empty_scene_stops_nothing() {
     assert!(tracer.closest(&Ray { origin: Vec3A::ZERO, direction: Vec3A::X }).is_none());
     assert!(tracer.is_visible(Vec3A::ZERO, Vec3A::ONE));
 }
+
+#[test]
+fn a_limited_ray_meets_what_is_within_its_reach_and_nothing_beyond() {
+    for scale in SCALES {
+        let square = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[x, y]| scale * Vec3::new(x, y, 0.0));
+        let tracer = tracer(&vec![[square[0], square[1], square[2]], [square[0], square[2], square[3]]]);
+        // From near by, and from so far away that the ray is begun anew before the scene.
+        for distance in [0.5, 100.0] {
+            let ray = toward(scale * Vec3::new(0.1, 0.2, distance), scale * Vec3::new(0.1, 0.2, 0.0));
+            for (reach, is_met) in [(0.99, false), (1.01, true), (f32::INFINITY, true)] {
+                let reach = reach * scale * distance;
+                assert_eq!(tracer.closest_within(&ray, reach).is_some(), is_met, "{scale} {distance} {reach}");
+                if distance < 1.0 {
+                    assert_eq!(tracer.is_free(&ray, reach), !is_met, "{scale} {reach}");
+                }
+            }
+        }
+    }
+}

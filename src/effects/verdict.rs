@@ -107,12 +107,13 @@ fn interreflection(census: &Census) -> (bool, String) {
         return (false, format!("The reflectance of all {} that light reaches is 0.", polygons(census.reached)));
     }
     let [low, high] = census.reflectance.map(channels);
-    let diffuse = format!("{} of {} reflect diffusely", census.diffuse, polygons(census.reached));
-    if census.light_may_bounce {
-        (true, format!("{diffuse}, with a reflectance from {low} to {high}, and may face others."))
-    } else {
-        (false, format!("{diffuse}, but they face nothing that faces them."))
-    }
+    // Whatever lights a surface faces it, so that there is always a surface that it sends light to.
+    let reason = format!(
+        "{} of {} reflect diffusely, with a reflectance from {low} to {high}, at least back to where their light comes from.",
+        census.diffuse,
+        polygons(census.reached)
+    );
+    (true, reason)
 }
 
 fn colour(census: &Census) -> (bool, String) {

@@ -31,8 +31,6 @@ pub struct Census {
     pub reflectance: [Rgb; 2],
     /// Whether light of an emitter may reach a surface.
     pub light_may_arrive: bool,
-    /// Whether light may go from a diffuse surface to another surface.
-    pub light_may_bounce: bool,
     /// Whether light of an emitter may reach a surface that is not only diffuse.
     pub light_may_meet_specular: bool,
 }
@@ -73,8 +71,7 @@ impl Census {
             sheets: count(|traits| traits.is_sheet),
             coloured: count(|traits| traits.is_coloured),
             reflectance: reflectance(&traits, &counts),
-            light_may_arrive: unseen_emitters < emitters.len() || may_see(surfaces, &emitters, &reached, tolerance),
-            light_may_bounce: may_see(surfaces, &those(Traits::is_diffuse), &reached, tolerance),
+            light_may_arrive: may_see(surfaces, &emitters, &reached, tolerance),
             light_may_meet_specular: may_see(surfaces, &emitters, &those(Traits::is_specular), tolerance),
         }
     }

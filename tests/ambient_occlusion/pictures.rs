@@ -5,6 +5,7 @@ use glam::Vec3;
 use lightwell::camera::Camera;
 use lightwell::cancel::Cancel;
 use lightwell::math::rgb::Rgb;
+use lightwell::math::stats::Moments;
 use lightwell::mesh::MeshSettings;
 use lightwell::methods::image::{ImageRun, Sources};
 use lightwell::methods::radiosity::mean_indirect_irradiance;
@@ -87,6 +88,39 @@ fn without_emitters_colours_are_seen_in_even_light() {
     let both = picture(&transport, CameraView::DiffuseAmbient, DOWN, occlusion);
     for (both, share) in both.radiance.iter().zip(&share.radiance) {
         assert!(both.abs_diff_eq(0.5 * *share, 1e-6), "{both} of {share}");
+    }
+}
+
+#[test]
+fn the_mean_light_between_surfaces_is_that_of_a_furnace() {
+    // Where all faces emit M and reflect ρ, M arrives straight and M / (1 − ρ) in all: the rest comes from reflections.
+    let world = &builtin("furnace").world;
+    let material = &world.scene.materials[world.scene.polygons[0].material as usize];
+    let (emitted, reflectance) = (material.exitance(), material.diffuse);
+    let expected = emitted * reflectance / (1.0 - reflectance);
+    let found = mean_indirect_irradiance(world);
+    // Single precision.
+    assert!((found / expected - 1.0).abs().max_element() < 1e-5, "{found}, not {expected}");
+}
+
+#[test]
+fn lamps_shine_in_their_own_radiance() {
+    let transport = builtin("furnace");
+    let occlusion = settings(16, Range::Unlimited, Falloff::None);
+    let [diffuse, both] = [CameraView::Diffuse, CameraView::DiffuseAmbient]
+        .map(|view| picture(&transport, view, transport.world.viewpoint, occlusion).radiance);
+    let material = &transport.world.scene.materials[0];
+    // All faces glow alike, so that direct light brings M everywhere: what is sent is Ke (1 + ρ).
+    let expected = f64::from((material.emission * (1.0 + material.diffuse)).x);
+    for image in [diffuse, both] {
+        let mut pixels = Moments::default();
+        image.iter().for_each(|radiance| pixels.add(f64::from(radiance.x)));
+        // Pixels are independent; four standard errors, as their own spread tells them, and no more than a hundredth.
+        let error = pixels.standard_error();
+        assert!(
+            (pixels.mean() - expected).abs() < 4.0 * error && error < 0.01 * expected,
+            "{pixels:?}, not {expected}"
+        );
     }
 }
 
