@@ -4,7 +4,7 @@ use super::stage::{LARGE, Stage, gathered, image, photons, showing, trail};
 use super::{click, key, thin};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 use lightwell::app::action::Action;
 use lightwell::app::model::Look;
 use lightwell::methods::{ImageSettings, OcclusionSettings, PhotonSettings, Range, Settings};
@@ -87,6 +87,10 @@ fn the_range_of_occlusion_is_drawn_or_said_to_be_unlimited() {
         assert_eq!(has_text(range, "Occlusion over distance"), is_drawn, "{range:?}");
         assert_eq!(is_shown(stage(range), "At most"), is_set, "{range:?}");
         assert_eq!(has_text(range, "a closed room is black"), is_dark, "{range:?}");
+        let harness = stage(range).window(LARGE);
+        let rights = harness.root().children_recursive().filter_map(|node| node.accesskit_node().bounding_box());
+        let right = rights.map(|bounds| bounds.x1).fold(0.0, f64::max);
+        assert!(right <= f64::from(LARGE.x), "{range:?}: something reaches to {right}");
     }
 }
 

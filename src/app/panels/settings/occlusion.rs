@@ -4,7 +4,7 @@ use super::{apply_when_done, count};
 use crate::app::action::Action;
 use crate::app::format;
 use crate::app::model::Model;
-use crate::app::panels::widgets::{choice, labelled, slider};
+use crate::app::panels::widgets::{choice, figure, labelled, slider};
 use crate::app::theme::UNIT;
 use crate::choice::Choice;
 use crate::methods::{OcclusionSettings, Range, Settings};
@@ -56,13 +56,13 @@ fn range(ui: &mut Ui, mut settings: Settings, radius: f32, actions: &mut Vec<Act
         return;
     }
     if let Range::Metres(metres) = &mut settings.occlusion.range {
-        let hover = "The distance D of the curve below, in units of the scene and as a share of its radius";
-        let write =
-            |metres: f64| format!("{} ({})", format::si(metres, "m"), format::percent(metres / f64::from(radius)));
+        let hover = "The distance D of the curve below";
         let span = radius / 1000.0..=4.0 * radius;
+        let share = f64::from(*metres / radius);
         let response = labelled(ui, "At most", hover, |ui| {
-            slider(ui, metres, span, true, write, |text| format::parse(text.split('(').next().unwrap_or(text), "m"))
+            slider(ui, metres, span, true, |metres| format::si(metres, "m"), |text| format::parse(text, "m"))
         });
+        figure(ui, "Of the scene's radius", format::percent(share), "The same distance as a share of the scene's size");
         apply_when_done(&response, settings, actions);
     }
 }
