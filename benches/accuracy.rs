@@ -8,6 +8,7 @@ mod pictures;
 mod truth;
 
 use lightwell::camera::Camera;
+use lightwell::effects::Switches;
 use lightwell::math::rgb::Rgb;
 use lightwell::methods::image::ImageRun;
 use lightwell::methods::transport::Transport;
@@ -40,7 +41,7 @@ fn error(image: &[Rgb], truth: &[(Rgb, Rgb)]) -> (f64, f64) {
 
 fn main() {
     let world = cornell_box();
-    let transport = Arc::new(Transport::new(world.clone()));
+    let transport = Arc::new(Transport::new(world.clone(), Switches::default()));
     let camera = Camera::new(&world.viewpoint, &world.bounds);
     let start = Instant::now();
     let truth = truth(&transport, &camera);

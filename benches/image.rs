@@ -6,6 +6,7 @@ mod pictures;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use lightwell::camera::Camera;
+use lightwell::effects::Switches;
 use lightwell::methods::image::ImageRun;
 use lightwell::methods::transport::Transport;
 use lightwell::solution::CameraView;
@@ -14,7 +15,7 @@ use std::sync::Arc;
 
 fn views(criterion: &mut Criterion) {
     let world = cornell_box();
-    let transport = Arc::new(Transport::new(world.clone()));
+    let transport = Arc::new(Transport::new(world.clone(), Switches::default()));
     let camera = Camera::new(&world.viewpoint, &world.bounds);
     let settings = settings(200_000, 64);
     let sources = with_photons(&transport, &settings);

@@ -7,6 +7,7 @@
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use glam::{UVec3, Vec3, Vec3A};
 use lightwell::cancel::Cancel;
+use lightwell::effects::Switches;
 use lightwell::math::bounds::Bounds;
 use lightwell::mesh::MeshSettings;
 use lightwell::methods::photon_map::{Entry, Found, Nearest, PhotonMapping, Scratch, Tree, Which};
@@ -30,7 +31,7 @@ fn cornell_box() -> Arc<Transport> {
 fn transport(name: &str) -> Arc<Transport> {
     let scene = Scene::open(name).expect("a built-in scene");
     let world = World::build(scene, &MeshSettings::default(), &Cancel::default()).expect("a world");
-    Arc::new(Transport::new(Arc::new(world)))
+    Arc::new(Transport::new(Arc::new(world), Switches::default()))
 }
 
 fn run(transport: &Arc<Transport>, photons: PhotonSettings, seed: u64) -> PhotonMapping {

@@ -2,6 +2,7 @@
 
 use super::action::Action;
 use super::diagrams::Diagrams;
+use super::effects::EffectFacts;
 use super::file_dialogs::{FileDialogs, Outcome};
 use super::frame_clock::FrameClock;
 use super::model::{Dialog, Look, Model, PathPurpose, PictureRequest, SceneFacts, extension};
@@ -144,16 +145,18 @@ impl Explorer {
         let mut actions = Vec::new();
         let error = self.snapshot.error.as_deref().filter(|_| !self.is_error_dismissed);
         let report = self.checks.as_ref().map(Checks::latest);
+        let settings = self.edited.unwrap_or(self.snapshot.settings);
         let model = Model {
             phase: &self.snapshot.phase,
             scene: SceneFacts::of(&self.snapshot),
+            effects: EffectFacts::of(&self.snapshot, &self.look, &settings),
             solution: self.snapshot.solution.as_deref(),
             photons: self.snapshot.photons.as_deref(),
             image: views::image(self.look.view, &self.snapshot),
             trail: self.snapshot.trail.as_deref(),
             gathered: self.snapshot.gathered.as_deref(),
             filter_draft: self.filter_draft.as_deref(),
-            settings: self.edited.unwrap_or(self.snapshot.settings),
+            settings,
             error,
             look: self.look,
             viewport_size: self.pane.size(),

@@ -6,6 +6,7 @@
 pub mod action;
 pub mod chart;
 pub mod diagrams;
+pub mod effects;
 mod explorer;
 mod file_dialogs;
 pub mod format;

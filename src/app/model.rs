@@ -2,10 +2,10 @@
 
 use super::chart::Chart;
 use super::diagrams::MatrixTexture;
+use super::effects::EffectFacts;
 use super::patch::PatchFacts;
-use super::views;
 use crate::choice::Choice;
-use crate::cli::picture::Format;
+use crate::cli::picture::{self, Format};
 use crate::math::rgb::Rgb64;
 use crate::methods::{Settings, Solver};
 use crate::scene::{Finding, FindingKind};
@@ -24,6 +24,8 @@ pub struct Model<'a> {
     pub phase: &'a Phase,
     /// The open scene, if one is open.
     pub scene: Option<SceneFacts<'a>>,
+    /// Which effects of light it calls for, and what they cost in the view on show.
+    pub effects: Option<EffectFacts<'a>>,
     pub solution: Option<&'a Solution>,
     pub photons: Option<&'a PhotonSolution>,
     /// The picture from a camera that is on show, if the view is one.
@@ -73,7 +75,7 @@ pub struct Model<'a> {
 impl Model<'_> {
     /// Whose work is on show.
     pub fn subject(&self) -> Subject {
-        views::subject(self.look.view)
+        picture::subject(self.look.view)
     }
 
     /// The light that the view shows or is read off, which runs and steps; `None` where rays from the camera find it.

@@ -2,8 +2,8 @@
 
 use super::action::CameraMove;
 use super::model::Look;
-use super::views::subject;
 use crate::camera::{Camera, Flight};
+use crate::cli::picture::subject;
 use crate::solution::PathFilter;
 use crate::viewport::{Frame, Gpu, Light, Viewport, automatic_exposure, pick_patch, pick_photon, pick_point};
 use crate::worker::{Sight, Snapshot, Spot};

@@ -3,7 +3,7 @@
 use crate::choice::Choice;
 use crate::solution::{CameraImage, CameraView};
 use crate::viewport::View;
-use crate::worker::{Snapshot, Subject};
+use crate::worker::Snapshot;
 
 /// Views that belong together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -77,15 +77,6 @@ impl Choice for ViewGroup {
             Self::Rays => "Pictures from the camera by rays, with mirrors and glass",
             Self::Occlusion => "Even light from everywhere, as far as nothing stands near: a guess at indirect light",
         }
-    }
-}
-
-/// Whose work a view shows.
-pub fn subject(view: View) -> Subject {
-    match view {
-        View::Camera(view) => Subject::Camera(view),
-        view if view.shows_photons() => Subject::Photons,
-        _ => Subject::Radiosity,
     }
 }
 

@@ -1,10 +1,12 @@
 //! What a picture says of itself in its file: how it was made, so that it can be made again.
 
 use crate::choice::Choice;
+use crate::effects::Effect;
 use crate::methods::Settings;
 use crate::solution::{CameraImage, CameraView, PhotonSolution};
 use crate::viewport::diagram::Diagram;
 use crate::viewport::{Frame, Light, View};
+use crate::worker::Subject;
 use crate::world::World;
 use std::time::Duration;
 
@@ -18,6 +20,15 @@ impl Facts {
     }
 }
 
+/// Whose work a view shows.
+pub fn subject(view: View) -> Subject {
+    match view {
+        View::Camera(view) => Subject::Camera(view),
+        view if view.shows_photons() => Subject::Photons,
+        _ => Subject::Radiosity,
+    }
+}
+
 /// What a picture of a view says of itself: names and values.
 pub fn facts(world: &World, light: &Light, settings: &Settings, frame: &Frame) -> Vec<(String, String)> {
     let mut facts = Facts::of(world, settings, frame.view.name());
@@ -26,6 +37,7 @@ pub fn facts(world: &World, light: &Light, settings: &Settings, frame: &Frame) -
         View::Camera(view) => facts.add_image(view, light, settings),
         _ => facts.add_radiosity(light, settings),
     }
+    facts.add_effects(subject(frame.view), settings);
     let has_filter = frame.view.shows_photons() && !frame.filter.passes_all();
     if has_filter {
         facts.add("Paths", frame.filter.as_str());
@@ -55,6 +67,7 @@ pub fn facts(world: &World, light: &Light, settings: &Settings, frame: &Frame) -
 pub fn diagram_facts(world: &World, light: &Light, settings: &Settings, diagram: Diagram) -> Vec<(String, String)> {
     let mut facts = Facts::of(world, settings, diagram.name());
     facts.add_radiosity(light, settings);
+    facts.add_effects(Subject::Radiosity, settings);
     if let (Diagram::ItemBuffer, Some(picked)) = (diagram, &light.picked) {
         facts.add("Picked patch", picked.patch);
         facts.add("Hemicube", settings.hemicube_resolution);
@@ -83,6 +96,18 @@ impl Facts {
         if let Some(solution) = &light.solution {
             self.add("Steps", solution.steps);
             self.add("Seconds", seconds(solution.elapsed));
+        }
+    }
+
+    /// Effects that are not simulated, or are, whatever the scene calls for.
+    fn add_effects(&mut self, subject: Subject, settings: &Settings) {
+        let switches = settings.effects.among(subject.repertoire(settings));
+        for (name, effects) in
+            [("Effects forced", switches.forced.but(switches.off)), ("Effects left out", switches.off)]
+        {
+            if !effects.is_empty() {
+                self.add(name, effects.iter().map(Effect::name).collect::<Vec<_>>().join(", "));
+            }
         }
     }
 

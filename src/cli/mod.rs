@@ -2,6 +2,7 @@
 
 mod camera_options;
 mod check;
+mod effect_options;
 mod facts;
 mod form_factor;
 mod image_options;

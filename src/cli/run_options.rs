@@ -1,5 +1,6 @@
 //! What every command that solves takes, and the solving.
 
+use super::effect_options::EffectOptions;
 use super::values;
 use super::{CliError, warn_of};
 use crate::cancel::Cancel;
@@ -85,6 +86,8 @@ pub struct RunOptions {
     #[arg(long, value_name = "N", default_value_t = Settings::default().shadow_rays,
           value_parser = clap::value_parser!(u32).range(1..=i64::from(Settings::MAX_SHADOW_RAYS)))]
     shadow_rays: u32,
+    #[command(flatten)]
+    pub effects: EffectOptions,
 }
 
 /// A scene with its light.
@@ -108,6 +111,7 @@ impl RunOptions {
             light_rays: self.light_rays.unwrap_or(Settings::default().light_rays),
             hemicube_resolution: self.hemicube,
             seed: self.scene.seed,
+            effects: self.effects.switches(),
             ..Settings::default()
         }
     }

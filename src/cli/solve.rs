@@ -3,11 +3,12 @@
 use super::photon_options::{LightMethod, PhotonOptions};
 use super::run_options::{RunOptions, Solved};
 use super::tracing::{Tracing, photon_report};
-use super::{CliError, refuse};
+use super::{CliError, effect_options, refuse};
 use crate::choice::{Choice, parse};
 use crate::math::rgb::total;
 use crate::methods::Settings;
 use crate::solution::PhotonSolution;
+use crate::worker::Subject;
 use crate::world::World;
 use serde_json::{Value, json};
 use std::io::Write;
@@ -58,7 +59,13 @@ pub fn check_method(method: LightMethod, run: &RunOptions, photons: &PhotonOptio
     if let Some(option) = stranger {
         refuse(&format!("{option} is not for --method {}", method.name()));
     }
-    if let Some(objection) = run.objection_by_radiosity() {
+    let subject = match method {
+        LightMethod::Radiosity => Subject::Radiosity,
+        LightMethod::PhotonMap => Subject::Photons,
+    };
+    let name = format!("--method {}", method.name());
+    let objection = run.effects.objection(subject, &run.settings(), &name);
+    if let Some(objection) = run.objection_by_radiosity().or(objection) {
         refuse(&objection);
     }
 }
@@ -67,7 +74,7 @@ pub fn check_method(method: LightMethod, run: &RunOptions, photons: &PhotonOptio
 pub fn report(solved: &Solved) -> Value {
     let Solved { world, settings, solution } = solved;
     let energy = &solution.energy;
-    json!({
+    let mut report = json!({
         "scene": world.scene.name,
         "method": "radiosity",
         "solver": settings.solver,
@@ -86,7 +93,9 @@ pub fn report(solved: &Solved) -> Value {
         },
         "closure": solution.closure,
         "counters": solution.counters,
-    })
+    });
+    effect_options::report(&mut report, Subject::Radiosity, world, settings, &solution.counters.bill);
+    report
 }
 
 /// A line of the ledger, with its share of what was emitted.

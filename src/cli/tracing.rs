@@ -1,11 +1,11 @@
 //! Photons and pictures from a camera, run to their end on the calling thread.
 
-use super::CliError;
+use super::{CliError, effect_options};
 use crate::cancel::Cancel;
 use crate::math::rgb::total;
 use crate::methods::{ImageSettings, Settings, Step};
 use crate::solution::{CameraImage, PhotonSolution, Solution};
-use crate::worker::{CameraShot, Lights, Methods, PhotonRun, TracedPhotons, Workshop};
+use crate::worker::{CameraShot, Lights, Methods, PhotonRun, Subject, TracedPhotons, Workshop};
 use crate::world::World;
 use serde_json::{Map, Value, json};
 use std::sync::Arc;
@@ -161,7 +161,7 @@ pub fn photon_report(world: &World, settings: &Settings, photons: &PhotonSolutio
         photons.counters.by_path.iter().map(|(path, count)| (path.clone(), json!(count))).collect();
     let mut counters = json!(photons.counters);
     counters["by_path"] = Value::Object(by_path);
-    json!({
+    let mut report = json!({
         "scene": world.scene.name,
         "method": "photon-map",
         "passes": photons.passes,
@@ -179,5 +179,7 @@ pub fn photon_report(world: &World, settings: &Settings, photons: &PhotonSolutio
             "defect": total(energy.defect()),
         },
         "counters": counters,
-    })
+    });
+    effect_options::report(&mut report, Subject::Photons, world, settings, &photons.counters.bill);
+    report
 }

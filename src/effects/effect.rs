@@ -94,23 +94,62 @@ impl Choice for Effect {
 pub struct Effects(u16);
 
 impl Effects {
-    pub fn contains(self, effect: Effect) -> bool {
+    pub const ALL: Self = Self((1 << Effect::ALL.len()) - 1);
+
+    /// The set of these.
+    pub const fn of(effects: &[Effect]) -> Self {
+        let (mut bits, mut i) = (0, 0);
+        while i < effects.len() {
+            bits |= Self::bit(effects[i]);
+            i += 1;
+        }
+        Self(bits)
+    }
+
+    pub const fn contains(self, effect: Effect) -> bool {
         self.0 & Self::bit(effect) != 0
     }
 
-    fn bit(effect: Effect) -> u16 {
+    pub const fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+
+    /// Those in either.
+    #[must_use]
+    pub const fn and(self, others: Self) -> Self {
+        Self(self.0 | others.0)
+    }
+
+    /// Those that are not among the others.
+    #[must_use]
+    pub const fn but(self, others: Self) -> Self {
+        Self(self.0 & !others.0)
+    }
+
+    /// Those in both.
+    #[must_use]
+    pub const fn among(self, others: Self) -> Self {
+        Self(self.0 & others.0)
+    }
+
+    /// In the order in which people are shown them.
+    pub fn iter(self) -> impl Iterator<Item = Effect> {
+        Effect::ALL.iter().copied().filter(move |&effect| self.contains(effect))
+    }
+
+    const fn bit(effect: Effect) -> u16 {
         1 << effect as u16
     }
 }
 
 impl FromIterator<Effect> for Effects {
     fn from_iter<I: IntoIterator<Item = Effect>>(effects: I) -> Self {
-        Self(effects.into_iter().fold(0, |bits, effect| bits | Self::bit(effect)))
+        effects.into_iter().fold(Self::default(), |set, effect| set.and(Self::of(&[effect])))
     }
 }
 
 impl fmt::Debug for Effects {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_set().entries(Effect::ALL.iter().filter(|&&effect| self.contains(effect))).finish()
+        f.debug_set().entries(self.iter()).finish()
     }
 }

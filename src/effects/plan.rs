@@ -25,6 +25,11 @@ impl Plan {
     }
 }
 
+/// The effects that a world calls for.
+pub fn needed(world: &World) -> Effects {
+    Effect::ALL.iter().copied().filter(|&effect| Verdict::new(effect, world).is_needed).collect()
+}
+
 /// Plans by the census that the world took when it was built, so that this costs next to nothing.
 pub fn plan(world: &World) -> Plan {
     let verdicts: Vec<Verdict> = Effect::ALL.iter().map(|&effect| Verdict::new(effect, world)).collect();

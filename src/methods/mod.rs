@@ -4,6 +4,7 @@ pub mod ambient_occlusion;
 pub mod image;
 pub mod photon_map;
 pub mod radiosity;
+pub mod repertoire;
 mod settings;
 pub mod transport;
 

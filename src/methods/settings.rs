@@ -2,6 +2,7 @@
 
 use super::ambient_occlusion::OcclusionSettings;
 use crate::choice::Choice;
+use crate::effects::Switches;
 use crate::mesh::MeshSettings;
 use crate::solution::PathFilter;
 
@@ -27,6 +28,9 @@ pub struct Settings {
     pub photons: PhotonSettings,
     pub image: ImageSettings,
     pub occlusion: OcclusionSettings,
+    /// Effects that are simulated, or left out, whatever the scene calls for. It belongs to the scene, and is not kept.
+    #[serde(skip)]
+    pub effects: Switches,
 }
 
 /// How light is followed as photons, and how it is read off them.
@@ -146,9 +150,10 @@ impl Settings {
     pub const MAX_HEMICUBE_RESOLUTION: u32 = 2048;
 
     /// Whether radiosity may go on with `other` instead: all but its stop rule, and what photons and cameras do, is the same.
+    /// Which effects it simulates, it finds out by itself.
     pub fn is_same_radiosity(&self, other: &Self) -> bool {
-        let Self { unshot_limit, photons, image, occlusion, .. } = *other;
-        Self { unshot_limit, photons, image, occlusion, ..*self } == *other
+        let Self { unshot_limit, photons, image, occlusion, effects, .. } = *other;
+        Self { unshot_limit, photons, image, occlusion, effects, ..*self } == *other
     }
 }
 
@@ -167,6 +172,7 @@ impl Default for Settings {
             photons: PhotonSettings::default(),
             image: ImageSettings::default(),
             occlusion: OcclusionSettings::default(),
+            effects: Switches::default(),
         }
     }
 }

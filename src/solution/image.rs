@@ -2,6 +2,7 @@
 
 use crate::camera::Camera;
 use crate::choice::Choice;
+use crate::effects::Bill;
 use crate::math::rgb::Rgb;
 use std::time::Duration;
 
@@ -137,6 +138,8 @@ pub struct CameraImage {
     /// Samples a pixel so far; 0 while it is coarse.
     pub samples: u32,
     pub rays: u64,
+    /// Of the rays, those for one effect; and those that skipping effects saved.
+    pub bill: Bill,
     /// Time spent on the picture, filled in by whoever runs it.
     pub elapsed: Duration,
     pub is_complete: bool,

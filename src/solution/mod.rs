@@ -12,6 +12,7 @@ pub use path::{Path, PathFilter, PathMatcher, Scattering};
 pub use photons::{Gathered, Photon, PhotonCounters, PhotonEnergy, PhotonSolution, PhotonTrail, Split, TrailPlace};
 pub use probe::SurfaceProbe;
 
+use crate::effects::Bill;
 use crate::math::rgb::{Rgb, Rgb64, total};
 use std::sync::Arc;
 use std::time::Duration;
@@ -142,11 +143,15 @@ pub struct Counters {
     pub clamped: u64,
     /// Pairs too near for a hemicube, computed in closed form instead.
     pub near_field: u64,
+    /// Of the rays, those for one effect; and those that skipping effects saved.
+    #[serde(skip)]
+    pub bill: Bill,
 }
 
 impl std::ops::AddAssign for Counters {
     fn add_assign(&mut self, other: Self) {
-        let Self { rays, shadow_rays, escape_rays, light_rays, form_factors, updates, clamped, near_field } = other;
+        let Self { rays, shadow_rays, escape_rays, light_rays, form_factors, updates, clamped, near_field, bill } =
+            other;
         self.rays += rays;
         self.shadow_rays += shadow_rays;
         self.escape_rays += escape_rays;
@@ -155,5 +160,6 @@ impl std::ops::AddAssign for Counters {
         self.updates += updates;
         self.clamped += clamped;
         self.near_field += near_field;
+        self.bill += &bill;
     }
 }

@@ -1,6 +1,7 @@
 //! What photon mapping hands out: photons where they landed, and the books of their flux.
 
 use super::{Path, Scattering};
+use crate::effects::Bill;
 use crate::math::rgb::{Rgb, Rgb64};
 use glam::Vec3;
 use std::sync::Arc;
@@ -132,6 +133,9 @@ pub struct PhotonCounters {
     pub escaped: u64,
     pub truncated: u64,
     pub rays: u64,
+    /// Of the rays, those for one effect; and those that skipping effects saved.
+    #[serde(skip)]
+    pub bill: Bill,
     /// Landings on diffuse surfaces of global photons after 0, 1, 2 … surfaces.
     pub by_bounce: Vec<u64>,
     /// The same by path, as in `LSD`, in the order of their names; what is longer than a few letters is taken together.

@@ -4,6 +4,7 @@ use super::Refused;
 use super::run::{check_photons, start_method};
 use super::workshop::{CameraShot, ImageMethod, Lights, PhotonMethod, PhotonProgress, Workshop};
 use crate::cancel::Cancel;
+use crate::effects::Switches;
 use crate::methods::image::{ImageRun, Sources};
 use crate::methods::photon_map::{PhotonMapping, PhotonMaps};
 use crate::methods::transport::{Surface, Transport};
@@ -25,18 +26,20 @@ pub struct Methods {
 }
 
 impl Methods {
-    fn transport(&mut self, world: &Arc<World>) -> Arc<Transport> {
-        let known = self.transport.upgrade().filter(|transport| Arc::ptr_eq(&transport.world, world));
+    fn transport(&mut self, world: &Arc<World>, switches: Switches) -> Arc<Transport> {
+        let known = self.transport.upgrade().filter(|transport| {
+            Arc::ptr_eq(&transport.world, world) && transport.effects == switches.simulated_in(world)
+        });
         known.unwrap_or_else(|| {
-            let transport = Arc::new(Transport::new(world.clone()));
+            let transport = Arc::new(Transport::new(world.clone(), switches));
             self.transport = Arc::downgrade(&transport);
             transport
         })
     }
 
-    fn sources(&mut self, lights: Lights<'_, TracedPhotons>) -> Sources {
+    fn sources(&mut self, lights: Lights<'_, TracedPhotons>, switches: Switches) -> Sources {
         Sources {
-            transport: self.transport(lights.world),
+            transport: self.transport(lights.world, switches),
             radiosity: lights.radiosity,
             photons: lights.photons.map(|photons| photons.maps()),
         }
@@ -52,16 +55,17 @@ impl Workshop for Methods {
     }
 
     fn photons(&mut self, world: &Arc<World>, settings: &Settings) -> Result<TracedPhotons, Refused> {
-        TracedPhotons::start(self.transport(world), settings)
+        TracedPhotons::start(self.transport(world, settings.effects), settings)
     }
 
     fn image(&mut self, lights: Lights<'_, TracedPhotons>, shot: &CameraShot, settings: &Settings) -> ImageRun {
         let CameraShot { view, camera, size } = *shot;
-        ImageRun::new(&self.sources(lights), view, camera, size, settings).expect("the light of the view is there")
+        ImageRun::new(&self.sources(lights, settings.effects), view, camera, size, settings)
+            .expect("the light of the view is there")
     }
 
     fn go_on(&mut self, image: &mut ImageRun, lights: Lights<'_, TracedPhotons>) {
-        let is_there = image.go_on_with(&self.sources(lights));
+        let is_there = image.go_on_with(&self.sources(lights, image.settings().effects));
         debug_assert!(is_there, "the light of the view is there");
     }
 }
@@ -78,7 +82,7 @@ impl TracedPhotons {
     /// # Errors
     /// If it needs more memory than there is.
     pub fn start(transport: Arc<Transport>, settings: &Settings) -> Result<Self, Refused> {
-        check_photons(&transport.world, &settings.photons)?;
+        check_photons(&transport, &settings.photons)?;
         Ok(Self { mapping: PhotonMapping::new(transport.clone(), settings), transport })
     }
 

@@ -3,6 +3,7 @@
 //! Commands go into a mailbox, where the newest wins; snapshots come out of a slot that holds the latest. Neither side
 //! ever waits for the other.
 
+mod account;
 mod checks;
 mod command;
 mod going;
@@ -14,6 +15,7 @@ mod run;
 mod solver;
 mod workshop;
 
+pub use account::Entry;
 pub use checks::{CheckReport, Checks};
 pub use command::{Command, LightKind, Place, Shown, Sight, Spot, Subject};
 pub use history::{Curve, CurvePoint};
@@ -21,6 +23,7 @@ pub use methods::{Methods, TracedPhotons};
 pub use run::{PhotonRun, Refused, Run};
 pub use workshop::{CameraShot, ImageMethod, Lights, PhotonMethod, PhotonProgress, Workshop};
 
+use crate::effects::Plan;
 use crate::methods::Settings;
 use crate::solution::{CameraImage, Gathered, PhotonSolution, PhotonTrail, Picked, Solution};
 use crate::world::World;
@@ -34,6 +37,8 @@ use std::thread::JoinHandle;
 pub struct Snapshot {
     pub phase: Phase,
     pub world: Option<Arc<World>>,
+    /// Which effects of light `world` calls for.
+    pub plan: Option<Arc<Plan>>,
     /// Belongs to `world`, element by element.
     pub solution: Option<Arc<Solution>>,
     /// What the picked patch sees; belongs to `world`.

@@ -2,8 +2,10 @@
 
 use super::workshop::{PhotonMethod, PhotonProgress};
 use crate::cancel::Cancel;
+use crate::effects::Effect;
 use crate::mesh::Patch;
 use crate::methods::radiosity::{self, FullMatrix};
+use crate::methods::transport::Transport;
 use crate::methods::{Method, PhotonSettings, Settings, Step};
 use crate::solution::{Photon, PhotonSolution, Progress, Solution};
 use crate::world::World;
@@ -162,10 +164,11 @@ pub fn start_method(world: Arc<World>, settings: &Settings) -> Result<Box<dyn Me
 ///
 /// # Errors
 /// If there is not.
-pub fn check_photons(world: &World, settings: &PhotonSettings) -> Result<(), Refused> {
-    let is_specular = world.scene.materials.iter().any(|material| material.lobes().is_specular());
-    // Photons of the caustic map are there for specular surfaces, and end where they land first.
-    let caustic = if is_specular { u64::from(settings.caustic_count) } else { 0 };
+pub fn check_photons(transport: &Transport, settings: &PhotonSettings) -> Result<(), Refused> {
+    let world = &transport.world;
+    let has_caustics = transport.effects.contains(Effect::Caustics);
+    // Photons of the caustic map end where they land first.
+    let caustic = if has_caustics { u64::from(settings.caustic_count) } else { 0 };
     let photons = u64::from(settings.count) + caustic;
     let landings = (f64::from(settings.count) * landings_per_photon(world)) as u64 + caustic;
     let (needed, available) = (landings.saturating_mul(BYTES_PER_LANDING), available_memory());

@@ -7,6 +7,7 @@ mod shapes;
 
 use glam::{Vec3, Vec3A};
 use lightwell::cancel::Cancel;
+use lightwell::effects::Switches;
 use lightwell::math::random::sobol2;
 use lightwell::mesh::MeshSettings;
 use lightwell::methods::ambient_occlusion::{AmbientOcclusion, Visibility};
@@ -40,9 +41,8 @@ const UNDER_A_CEILING: [(Falloff, f32, f64); 5] = [
 
 fn transport(obj: &str) -> Arc<Transport> {
     let scene = Scene::from_text("test", obj, "").expect("a scene");
-    Arc::new(Transport::new(Arc::new(
-        World::build(scene, &MeshSettings::default(), &Cancel::default()).expect("a world"),
-    )))
+    let world = World::build(scene, &MeshSettings::default(), &Cancel::default()).expect("a world");
+    Arc::new(Transport::new(Arc::new(world), Switches::default()))
 }
 
 /// A quad in OBJ text.

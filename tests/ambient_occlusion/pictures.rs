@@ -4,6 +4,7 @@ use super::{FAR, LIFTED, UNDER_A_CEILING, plane, settings, transport};
 use glam::Vec3;
 use lightwell::camera::Camera;
 use lightwell::cancel::Cancel;
+use lightwell::effects::{Effects, Switches};
 use lightwell::math::rgb::Rgb;
 use lightwell::math::stats::Moments;
 use lightwell::mesh::MeshSettings;
@@ -35,9 +36,8 @@ const DOWN: Viewpoint =
 
 fn builtin(name: &str) -> Arc<Transport> {
     let scene = Scene::open(name).expect("a built-in scene");
-    Arc::new(Transport::new(Arc::new(
-        World::build(scene, &MeshSettings::default(), &Cancel::default()).expect("a world"),
-    )))
+    let world = World::build(scene, &MeshSettings::default(), &Cancel::default()).expect("a world");
+    Arc::new(Transport::new(Arc::new(world), Switches::default()))
 }
 
 #[test]
@@ -98,7 +98,7 @@ fn the_mean_light_between_surfaces_is_that_of_a_furnace() {
     let material = &world.scene.materials[world.scene.polygons[0].material as usize];
     let (emitted, reflectance) = (material.exitance(), material.diffuse);
     let expected = emitted * reflectance / (1.0 - reflectance);
-    let found = mean_indirect_irradiance(world);
+    let found = mean_indirect_irradiance(world, Effects::ALL);
     // Single precision.
     assert!((found / expected - 1.0).abs().max_element() < 1e-5, "{found}, not {expected}");
 }
@@ -134,7 +134,7 @@ fn ambient_light_is_added_to_direct_light_where_it_is_not_occluded() {
     // With the same seed the same places are seen, so that ρ E v / π is added, with one E. In the second row from below there
     // is the white floor alone.
     let white = Rgb::new(0.725, 0.71, 0.68);
-    let expected = mean_indirect_irradiance(&transport.world);
+    let expected = mean_indirect_irradiance(&transport.world, transport.effects);
     let row = (SIZE[1] as usize - 2) * SIZE[0] as usize;
     let is_floor = |pixel: &usize| diffuse[*pixel].x > 0.0 && share[*pixel].x > 0.9;
     let floor: Vec<usize> = (row + 8..row + 24).filter(is_floor).collect();

@@ -20,6 +20,8 @@ fn the_ledger_of_photons_closes_and_every_landing_is_counted() {
         "passes",
         "scene",
         "seconds",
+        "simulated",
+        "skipped",
     ];
     assert_eq!(keys(&report), fields);
     assert_eq!((&report["method"], &report["complete"]), (&"photon-map".into(), &true.into()));

@@ -9,6 +9,7 @@ mod truth;
 use glam::Vec3;
 use lightwell::camera::Camera;
 use lightwell::cancel::Cancel;
+use lightwell::effects::Switches;
 use lightwell::math::rgb::Rgb;
 use lightwell::mesh::MeshSettings;
 use lightwell::methods::image::{ImageRun, Sources};
@@ -34,7 +35,7 @@ fn scene(obj: &str, mtl: &str) -> Arc<World> {
 }
 
 fn sources(world: &Arc<World>) -> Sources {
-    Sources { transport: Arc::new(Transport::new(world.clone())), radiosity: None, photons: None }
+    Sources { transport: Arc::new(Transport::new(world.clone(), Switches::default())), radiosity: None, photons: None }
 }
 
 /// The same with all photons of the settings.

@@ -13,6 +13,7 @@ mod shapes;
 
 use glam::{Vec3, Vec3A};
 use lightwell::cancel::Cancel;
+use lightwell::effects::Switches;
 use lightwell::math::random::Stream;
 use lightwell::mesh::MeshSettings;
 use lightwell::methods::transport::{Media, Surface, Transport};
@@ -27,10 +28,10 @@ fn scene(obj: &str, mtl: &str) -> Scene {
     Scene::from_text("scene", &format!("mtllib all\n{obj}"), mtl).expect("the scene opens")
 }
 
-/// The same, ready for rays.
+/// The same, ready for rays. No scene here has a light, so that none calls for what glass does.
 fn transport(obj: &str, mtl: &str) -> Transport {
     let world = World::build(scene(obj, mtl), &MeshSettings::default(), &Cancel::default()).expect("a world");
-    Transport::new(Arc::new(world))
+    Transport::new(Arc::new(world), Switches::ALL)
 }
 
 /// OBJ text of triangles, which are one object of one material.

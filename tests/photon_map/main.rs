@@ -13,6 +13,7 @@ mod rooms;
 
 use glam::Vec3A;
 use lightwell::cancel::Cancel;
+use lightwell::effects::Switches;
 use lightwell::mesh::MeshSettings;
 use lightwell::methods::photon_map::PhotonMapping;
 use lightwell::methods::transport::{Surface, Transport};
@@ -24,7 +25,7 @@ use std::sync::Arc;
 
 fn transport(scene: Scene) -> Arc<Transport> {
     let world = World::build(scene, &MeshSettings::default(), &Cancel::default()).expect("a world");
-    Arc::new(Transport::new(Arc::new(world)))
+    Arc::new(Transport::new(Arc::new(world), Switches::default()))
 }
 
 fn open(name: &str) -> Arc<Transport> {

@@ -2,6 +2,7 @@
 
 use crate::{SIZE, frame, gpu, light, motley, pixel, solution, square};
 use lightwell::camera::Camera;
+use lightwell::effects::Bill;
 use lightwell::math::rgb::Rgb;
 use lightwell::solution::{CameraImage, CameraView};
 use lightwell::viewport::{Frame, Light, ToneCurve, View, Viewport, render_picture};
@@ -22,6 +23,7 @@ fn image(world: &World, resolution: [u32; 2], value: impl Fn(usize) -> (Rgb, f32
         coverage,
         samples: 1,
         rays: 0,
+        bill: Bill::default(),
         elapsed: Duration::ZERO,
         is_complete: true,
     }

@@ -6,24 +6,29 @@ use glam::Vec3;
 use lightwell::app::action::Action;
 use lightwell::app::chart::Chart;
 use lightwell::app::diagrams::MatrixTexture;
+use lightwell::app::effects::EffectFacts;
 use lightwell::app::model::{Dialog, FrameTime, Look, LowerPanel, Model, Notice, SceneFacts, Theme};
 use lightwell::app::patch::{PatchFacts, PatchLight};
 use lightwell::app::{panels, theme};
 use lightwell::camera::Camera;
+use lightwell::cancel::Cancel;
+use lightwell::effects::{Bill, Effect, Plan, plan};
 use lightwell::hard_cases::{Row, Verdict, cases};
 use lightwell::math::bounds::Bounds;
 use lightwell::math::rgb::{Rgb, Rgb64};
+use lightwell::mesh::MeshSettings;
 use lightwell::methods::{Settings, Solver};
-use lightwell::scene::{Finding, FindingKind, Severity, Viewpoint};
+use lightwell::scene::{Finding, FindingKind, Scene, Severity, Viewpoint};
 use lightwell::solution::{
     CameraImage, CameraView, Closure, Counters, Energy, Gathered, PhotonCounters, PhotonEnergy, PhotonSolution,
     PhotonTrail, Progress, Scattering, Solution, TrailPlace,
 };
 use lightwell::viewport::diagram::Swatch;
 use lightwell::viewport::{Legend, View};
-use lightwell::worker::{CheckReport, Curve, CurvePoint, Phase};
+use lightwell::worker::{CheckReport, Curve, CurvePoint, Entry, Phase};
+use lightwell::world::World;
 use std::path::PathBuf;
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 use std::time::Duration;
 
 /// What a model borrows, and the wishes that came of it.
@@ -31,6 +36,8 @@ pub struct Stage {
     pub phase: Phase,
     pub is_open: bool,
     pub findings: Vec<Finding>,
+    /// Of the effects that the view tells apart.
+    pub effects: Vec<Entry>,
     pub solution: Option<Solution>,
     pub photons: Option<PhotonSolution>,
     pub image: Option<CameraImage>,
@@ -57,6 +64,25 @@ pub struct Stage {
     pub actions: Vec<Action>,
 }
 
+/// Of a scene that is all diffuse and open.
+static PLAN: LazyLock<Plan> = LazyLock::new(|| {
+    let scene = Scene::open("cornell-box").expect("a built-in scene");
+    let mesh = MeshSettings { element_size: Some(0.2), ..MeshSettings::default() };
+    plan(&World::build(scene, &mesh, &Cancel::default()).expect("a world"))
+});
+
+/// Radiosity with shadows.
+pub fn effects() -> Vec<Entry> {
+    let simulated = |effect, spent| Entry { effect, is_simulated: true, spent, saved: 0 };
+    vec![
+        simulated(Effect::DirectLight, 0),
+        simulated(Effect::Shadows, 29_400_000),
+        simulated(Effect::Interreflection, 0),
+        simulated(Effect::Colour, 0),
+        simulated(Effect::Escape, 1_600_000),
+    ]
+}
+
 impl Default for Stage {
     /// A scene is open, and some of its light is shot.
     fn default() -> Self {
@@ -64,6 +90,7 @@ impl Default for Stage {
             phase: Phase::Paused,
             is_open: true,
             findings: Vec::new(),
+            effects: effects(),
             solution: Some(solution()),
             photons: None,
             image: None,
@@ -112,6 +139,12 @@ impl Stage {
         let model = Model {
             phase: &self.phase,
             scene: self.is_open.then_some(facts),
+            effects: self.is_open.then(|| EffectFacts {
+                plan: &PLAN,
+                entries: self.effects.clone(),
+                rays: 31_000_000,
+                elapsed: Duration::from_secs(3),
+            }),
             solution: self.solution.as_ref(),
             photons: self.photons.as_ref(),
             image: self.image.as_ref(),
@@ -303,6 +336,7 @@ pub fn image(view: CameraView) -> CameraImage {
         coverage: vec![1.0],
         samples: 4,
         rays: 3_000_000,
+        bill: Bill::default(),
         elapsed: Duration::from_millis(1_500),
         is_complete: false,
     }

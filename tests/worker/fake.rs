@@ -2,6 +2,7 @@
 
 use glam::Vec3A;
 use lightwell::cancel::Cancel;
+use lightwell::effects::Bill;
 use lightwell::math::rgb::Rgb;
 use lightwell::methods::{Method, PhotonSettings, Settings, Step};
 use lightwell::solution::{
@@ -277,6 +278,7 @@ impl ImageMethod for FakeImage {
             coverage: vec![self.passes as f32],
             samples: self.samples(),
             rays: self.light,
+            bill: Bill::default(),
             elapsed: Duration::ZERO,
             is_complete: false,
         })

@@ -1,18 +1,22 @@
 //! What stands between the person and the light, above the viewport, each with the way out of it.
 
+use super::effects;
 use super::icons::Icon;
 use super::widgets::primary_button;
 use crate::app::action::Action;
 use crate::app::model::Model;
 use crate::app::theme::{Palette, UNIT};
+use crate::choice::Choice;
+use crate::effects::Effect;
 use crate::methods::{Settings, Solver};
 use crate::viewport::View;
 use crate::worker::{Command, LightKind, Phase};
 use egui::{Align, Button, Layout, RichText, Ui};
+use std::borrow::Cow;
 
 /// One message and what can be done about it.
 pub struct Banner<'a> {
-    pub message: &'a str,
+    pub message: Cow<'a, str>,
     is_error: bool,
     remedy: Option<Remedy>,
 }
@@ -26,7 +30,7 @@ struct Remedy {
 
 pub fn all<'a>(model: &Model<'a>) -> Vec<Banner<'a>> {
     let crash = (*model.phase == Phase::Crashed).then(|| Banner {
-        message: model.error.unwrap_or("The solver stopped because of a fault in the program."),
+        message: model.error.unwrap_or("The solver stopped because of a fault in the program.").into(),
         is_error: true,
         remedy: Some(Remedy {
             name: "Restart solver",
@@ -35,12 +39,12 @@ pub fn all<'a>(model: &Model<'a>) -> Vec<Banner<'a>> {
         }),
     });
     let error = model.error.filter(|_| crash.is_none()).map(|message| Banner {
-        message,
+        message: message.into(),
         is_error: true,
         remedy: Some(Remedy { name: "Dismiss", hover: "Takes this message away", action: Action::DismissError }),
     });
     let dark = model.scene.filter(|scene| scene.is_dark()).map(|_| Banner {
-        message: "Nothing in this scene emits light, so there is nothing to see.",
+        message: "Nothing in this scene emits light, so there is nothing to see.".into(),
         is_error: false,
         remedy: Some(Remedy {
             name: "Add a ceiling light",
@@ -49,11 +53,30 @@ pub fn all<'a>(model: &Model<'a>) -> Vec<Banner<'a>> {
         }),
     });
     let missing = model.missing.filter(|_| model.is_stuck()).map(|message| Banner {
-        message,
+        message: message.into(),
         is_error: false,
         remedy: remedy_for_view(model),
     });
-    [crash, error, dark, missing].into_iter().flatten().collect()
+    [crash, error, dark, missing, left_out(model)].into_iter().flatten().collect()
+}
+
+/// Effects that the scene calls for and somebody has switched off.
+fn left_out<'a>(model: &Model) -> Option<Banner<'a>> {
+    let facts = model.effects.as_ref()?;
+    let missing = facts.missing();
+    let names: Vec<_> = missing.iter().map(Effect::label).collect();
+    let loss = facts.plan.verdicts.iter().find(|verdict| missing.contains(verdict.effect))?.if_missed;
+    // One sentence for one effect; for more, their names.
+    let loss = if names.len() == 1 { loss } else { "This is not what the scene looks like." };
+    Some(Banner {
+        message: format!("Left out: {}. {loss}", names.join(", ").to_lowercase()).into(),
+        is_error: false,
+        remedy: Some(Remedy {
+            name: "As planned",
+            hover: "Simulates what the scene calls for, and nothing else",
+            action: effects::as_planned(model.settings),
+        }),
+    })
 }
 
 /// What brings a view that needs what is not there.
@@ -105,7 +128,7 @@ pub fn show(ui: &mut Ui, banner: &Banner, actions: &mut Vec<Action>) {
                 ui.add_space(UNIT);
             }
             ui.with_layout(Layout::left_to_right(Align::Center).with_main_wrap(true), |ui| {
-                ui.label(RichText::new(banner.message).color(color));
+                ui.label(RichText::new(&*banner.message).color(color));
             });
         });
     });

@@ -4,6 +4,7 @@ mod banner;
 mod chart;
 mod diagrams;
 mod dialogs;
+mod effects;
 mod energy;
 mod exposure;
 mod findings;
@@ -53,7 +54,7 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>, paint: impl F
         }
         lower::show(ui, model, actions);
         for banner in banner::all(model) {
-            let panel = Panel::top(("banner", banner.message)).frame(bar_frame(ui, 8));
+            let panel = Panel::top(("banner", &banner.message)).frame(bar_frame(ui, 8));
             panel.show(ui, |ui| banner::show(ui, &banner, actions));
         }
         let area = viewport::show(ui, model, actions, paint);
@@ -94,6 +95,7 @@ fn side_panel(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
                 widgets::section(ui, "Exposure", |ui| exposure::show(ui, model, actions));
             }
             widgets::section(ui, "Settings", |ui| settings::show(ui, model, actions));
+            widgets::section(ui, "Effects", |ui| effects::show(ui, model, actions));
             findings::show(ui, model);
         });
     });

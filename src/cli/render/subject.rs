@@ -2,10 +2,12 @@
 
 use super::Options;
 use crate::choice::Choice;
+use crate::cli::picture;
 use crate::methods::{ImageSettings, Solver};
 use crate::solution::CameraView;
 use crate::viewport::View;
 use crate::viewport::diagram::Diagram;
+use crate::worker;
 
 /// What a picture is of.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,6 +33,14 @@ impl Subject {
             let names: Vec<_> = Self::all().map(Self::name).collect();
             format!("no view is called `{text}` (there are {})", names.join(", "))
         })
+    }
+
+    /// Whose work it shows.
+    fn worker_subject(self) -> worker::Subject {
+        match self {
+            Self::View(view) => picture::subject(view),
+            Self::Diagram(_) => worker::Subject::Radiosity,
+        }
     }
 
     /// The picture from a camera that it is, if it is one.
@@ -68,7 +78,11 @@ impl Subject {
 impl Options {
     /// Why these options do not lead to the picture, if they do not.
     pub(super) fn objection(&self) -> Option<String> {
-        self.what_is_needed().map(str::to_owned).or_else(|| self.what_is_strange())
+        let effects = || {
+            let name = format!("the view `{}`", self.view.name());
+            self.run.effects.objection(self.view.worker_subject(), &self.settings(), &name)
+        };
+        self.what_is_needed().map(str::to_owned).or_else(|| self.what_is_strange()).or_else(effects)
     }
 
     fn what_is_needed(&self) -> Option<&'static str> {

@@ -5,11 +5,11 @@ use crate::choice::Choice;
 use crate::cli::run_options::Solved;
 use crate::cli::solve::report;
 use crate::cli::tracing::{Tracing, photon_report};
-use crate::cli::{CliError, picture};
+use crate::cli::{CliError, effect_options, picture};
 use crate::methods::Settings;
 use crate::solution::{CameraImage, CameraView, Solution};
 use crate::viewport::{Frame, Gpu, Legend, Light, PhotonLook, View, render_picture};
-use crate::worker::CameraShot;
+use crate::worker::{CameraShot, Subject};
 use crate::world::World;
 use serde_json::{Value, json};
 use std::sync::Arc;
@@ -81,6 +81,14 @@ impl Options {
                 json!({ "scene": world.scene.name, "method": method })
             }
         };
+        let mut bill = image.bill;
+        if let Some(solution) = &solution {
+            bill += &solution.counters.bill;
+        }
+        if let Some(photons) = &photons {
+            bill += &photons.counters.bill;
+        }
+        effect_options::report(&mut report, Subject::Camera(view), world, &settings, &bill);
         report["picture"] = image_report(&image, view.is_light().then_some(frame.exposure_ev));
         let light =
             Light { solution, photons: photons.map(Arc::new), image: Some(Arc::new(image)), ..Light::default() };

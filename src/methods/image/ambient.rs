@@ -2,14 +2,14 @@
 //! and both together (Landis 2002).
 
 use super::direct;
-use super::draws::{Draws, Use};
-use super::eye_path::{Look, Sight};
+use super::draws::Use;
+use super::eye_path::{Look, Sight, Tools};
+use crate::effects::Effect;
 use crate::math::rgb::Rgb;
 use crate::methods::Settings;
 use crate::methods::ambient_occlusion::AmbientOcclusion;
-use crate::methods::photon_map::Scratch;
 use crate::methods::radiosity::mean_indirect_irradiance;
-use crate::methods::transport::{Media, Surface, Transport};
+use crate::methods::transport::{Bsdf, Media, Surface, Transport};
 use crate::solution::Scattering;
 use crate::tracer::Ray;
 use std::f32::consts::PI;
@@ -37,13 +37,15 @@ pub struct AmbientLook {
 }
 
 impl AmbientLook {
-    /// The ambient light is as bright as light between surfaces is on average. Where nothing emits, its radiance is 1.
+    /// The ambient light is as bright as light between surfaces is on average. Where no emitter lights anything, its radiance
+    /// is 1.
     pub fn new(transport: Arc<Transport>, parts: Parts, settings: &Settings) -> Self {
-        let is_dark = transport.emitters().is_empty();
+        let is_dark = !transport.world.census.light_may_arrive;
         let ambient = match parts {
+            Parts::Diffuse | Parts::DiffuseAmbient if settings.effects.off.contains(Effect::AmbientLight) => Rgb::ZERO,
             _ if is_dark => Rgb::splat(PI),
             Parts::Diffuse => Rgb::ZERO,
-            Parts::Occlusion | Parts::DiffuseAmbient => mean_indirect_irradiance(&transport.world),
+            Parts::Occlusion | Parts::DiffuseAmbient => mean_indirect_irradiance(&transport.world, transport.effects),
         };
         Self {
             occlusion: AmbientOcclusion::new(transport.clone(), &settings.occlusion),
@@ -54,28 +56,46 @@ impl AmbientLook {
         }
     }
 
-    /// The share of the ambient light that counts at a surface, and the rays that this took.
-    fn share(&self, surface: &Surface, draws: &Draws) -> (f32, u32) {
-        if self.parts == Parts::Diffuse {
-            return (1.0, 0);
-        }
+    /// The share of the ambient light that counts at a surface.
+    fn share(&self, surface: &Surface, tools: &mut Tools<'_>) -> f32 {
         let rays = self.occlusion.rays();
-        (self.occlusion.visibility(surface, |i| draws.spread(Use::Ambient, i, rays)).share, rays)
+        match self.parts {
+            Parts::Diffuse => 1.0,
+            Parts::DiffuseAmbient if self.ambient == Rgb::ZERO => {
+                tools.cost.save(Effect::AmbientLight, rays);
+                0.0
+            }
+            Parts::DiffuseAmbient | Parts::Occlusion => {
+                tools.cost.spend(Effect::AmbientLight, rays);
+                self.occlusion.visibility(surface, |i| tools.draws.spread(Use::Ambient, i, rays)).share
+            }
+        }
+    }
+
+    /// Light on the diffuse lobe straight from emitters, W/(m²·sr).
+    fn direct(&self, surface: &Surface, bsdf: &Bsdf, tools: &mut Tools<'_>) -> Rgb {
+        if self.transport.effects.contains(Effect::DirectLight) {
+            direct::spread(&self.transport, surface, bsdf, self.light_rays, tools)
+        } else {
+            tools.cost.save(Effect::DirectLight, self.light_rays);
+            Rgb::ZERO
+        }
     }
 }
 
 impl Look for AmbientLook {
-    fn look(&self, ray: Ray, media: Media, draws: &mut Draws, _scratch: &mut Scratch) -> Sight {
-        let Some(surface) = self.transport.meet(&ray) else { return Sight { rays: 1, ..Sight::default() } };
-        let (share, rays) = self.share(&surface, draws);
-        let seen = |radiance, rays: u32| Sight { radiance, is_surface: true, rays: 1 + u64::from(rays) };
+    fn look(&self, ray: Ray, media: Media, tools: &mut Tools<'_>) -> Sight {
+        tools.cost.look();
+        let Some(surface) = self.transport.meet(&ray) else { return Sight::default() };
+        let share = self.share(&surface, tools);
+        let seen = |radiance| Sight { radiance, is_surface: true };
         if self.parts == Parts::Occlusion {
-            return seen(Rgb::splat(share), rays);
+            return seen(Rgb::splat(share));
         }
         let bsdf = self.transport.bsdf(&surface, -ray.direction, &media).only(Scattering::Diffuse);
-        let direct = direct::spread(&self.transport, &surface, &bsdf, self.light_rays, draws);
+        let direct = self.direct(&surface, &bsdf, tools);
         let ambient = bsdf.diffuse() * self.ambient * share / PI;
-        seen(self.transport.emission(&surface) + direct + ambient, rays + self.light_rays)
+        seen(self.transport.emission(&surface) + direct + ambient)
     }
 
     fn transport(&self) -> &Transport {

@@ -117,7 +117,7 @@ f 13 14 15 16
         let world = Arc::new(World::build(scene, &mesh, &Cancel::default()).expect("a world"));
         let photons = PhotonSettings { count: 500_000, ..PhotonSettings::default() };
         let settings = Settings { photons, ..Settings::default() };
-        let mut mapping = PhotonMapping::new(Arc::new(Transport::new(world.clone())), &settings);
+        let mut mapping = PhotonMapping::new(Arc::new(Transport::new(world.clone(), settings.effects)), &settings);
         while mapping.step(&Cancel::default()) == Step::Advanced {}
         let irradiance = ArrivalMaps::new(mapping.maps()).sum(|_| true);
         let (mut in_part, mut beside) = (Moments::default(), Moments::default());

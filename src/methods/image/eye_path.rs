@@ -1,5 +1,6 @@
 //! The way of a ray from the eye over specular surfaces, to wherever light is known (Whitted 1980; Kajiya 1986).
 
+use super::cost::Cost;
 use super::draws::Draws;
 use crate::math::rgb::Rgb;
 use crate::methods::photon_map::Scratch;
@@ -27,14 +28,22 @@ pub struct Seen<'a> {
 
 /// What is known of the light that diffuse lobes send on.
 pub trait DiffuseLight: Send + Sync {
-    /// Radiance that the diffuse lobe of the place sends towards the eye, W/(m²·sr), and the rays that this took.
-    fn leaving(&self, seen: &Seen<'_>, draws: &mut Draws, scratch: &mut Scratch) -> (Rgb, u64);
+    /// Radiance that the diffuse lobe of the place sends towards the eye, W/(m²·sr).
+    fn leaving(&self, seen: &Seen<'_>, tools: &mut Tools<'_>) -> Rgb;
+}
+
+/// What each sample of a pixel works with.
+pub struct Tools<'a> {
+    pub draws: &'a mut Draws,
+    pub scratch: &'a mut Scratch,
+    /// Of all samples so far.
+    pub cost: &'a mut Cost,
 }
 
 /// What is seen along rays from the eye.
 pub trait Look: Send + Sync {
     /// What a ray brings that starts in this glass.
-    fn look(&self, ray: Ray, media: Media, draws: &mut Draws, scratch: &mut Scratch) -> Sight;
+    fn look(&self, ray: Ray, media: Media, tools: &mut Tools<'_>) -> Sight;
 
     fn transport(&self) -> &Transport;
 }
@@ -54,7 +63,6 @@ pub struct Sight {
     pub radiance: Rgb,
     /// Whether there is a surface at all.
     pub is_surface: bool,
-    pub rays: u64,
 }
 
 /// A ray on its way from the eye.
@@ -73,10 +81,11 @@ struct Leg {
 impl Look for EyePath {
     /// Radiance that arrives along the ray: what surfaces emit and what their diffuse lobes send on, directly and over
     /// specular lobes. At the first surfaces all of these are followed, later on one of them.
-    fn look(&self, ray: Ray, media: Media, draws: &mut Draws, scratch: &mut Scratch) -> Sight {
+    fn look(&self, ray: Ray, media: Media, tools: &mut Tools<'_>) -> Sight {
         let leg = Leg { ray, throughput: Rgb::ONE, narrowing: 1.0, media, to_eye: Path::LIGHT };
         let mut sight = Sight::default();
-        self.follow(&leg, &mut sight, draws, scratch);
+        tools.cost.look();
+        self.follow(&leg, &mut sight, tools);
         sight
     }
 
@@ -86,8 +95,7 @@ impl Look for EyePath {
 }
 
 impl EyePath {
-    fn follow(&self, leg: &Leg, sight: &mut Sight, draws: &mut Draws, scratch: &mut Scratch) {
-        sight.rays += 1;
+    fn follow(&self, leg: &Leg, sight: &mut Sight, tools: &mut Tools<'_>) {
         let Some(surface) = self.transport.meet(&leg.ray) else { return };
         sight.is_surface = true;
         let emitted = self.transport.emission(&surface);
@@ -98,36 +106,29 @@ impl EyePath {
         if bsdf.diffuse() != Rgb::ZERO {
             let seen =
                 Seen { surface: &surface, bsdf: &bsdf.only(Scattering::Diffuse), to_eye: leg.to_eye, media: leg.media };
-            let (leaving, rays) = self.light.leaving(&seen, draws, scratch);
-            sight.radiance += leg.throughput * leg.narrowing * leaving;
-            sight.rays += rays;
+            sight.radiance += leg.throughput * leg.narrowing * self.light.leaving(&seen, tools);
+        }
+        for effect in self.transport.skipped(&surface).iter() {
+            tools.cost.save(effect, 1);
         }
         if !bsdf.is_specular() || leg.to_eye.len() == MAX_EVENTS {
             return;
         }
         if leg.to_eye.len() < SPLIT_EVENTS {
             for lobe in bsdf.specular_lobes() {
-                self.go_on(leg, &surface, &lobe, sight, draws, scratch);
+                self.go_on(leg, &surface, &lobe, sight, tools);
             }
         } else {
-            self.go_on(leg, &surface, &bsdf.only(Scattering::Specular), sight, draws, scratch);
+            self.go_on(leg, &surface, &bsdf.only(Scattering::Specular), sight, tools);
         }
     }
 
     /// Follows a lobe, or one of several. What carries little is ended at random.
-    fn go_on(
-        &self,
-        leg: &Leg,
-        surface: &Surface,
-        lobe: &Bsdf,
-        sight: &mut Sight,
-        draws: &mut Draws,
-        scratch: &mut Scratch,
-    ) {
-        let Some(sample) = lobe.sample(leg.throughput, &mut draws.stream) else { return };
+    fn go_on(&self, leg: &Leg, surface: &Surface, lobe: &Bsdf, sight: &mut Sight, tools: &mut Tools<'_>) {
+        let Some(sample) = lobe.sample(leg.throughput, &mut tools.draws.stream) else { return };
         let throughput = leg.throughput * sample.weight;
         let survival = (throughput.max_element() / FAINT).min(1.0);
-        if draws.stream.uniform() >= survival {
+        if tools.draws.stream.uniform() >= survival {
             return;
         }
         let next = Leg {
@@ -137,6 +138,7 @@ impl EyePath {
             media: if sample.crosses { self.transport.media_behind(surface, leg.media) } else { leg.media },
             to_eye: leg.to_eye.then(Scattering::Specular),
         };
-        self.follow(&next, sight, draws, scratch);
+        tools.cost.spend(sample.effect(), 1);
+        self.follow(&next, sight, tools);
     }
 }

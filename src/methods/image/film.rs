@@ -1,7 +1,8 @@
 //! A picture in the making: coarse at first, then every pixel, then more samples of each.
 
+use super::cost::Cost;
 use super::draws::{Draws, Use};
-use super::eye_path::{Look, Sight};
+use super::eye_path::{Look, Sight, Tools};
 use crate::camera::{Camera, EyeRays};
 use crate::cancel::Cancel;
 use crate::math::rgb::Rgb;
@@ -34,7 +35,7 @@ pub struct Film {
     pass: usize,
     /// Tiles of the pass that are done.
     tiles_done: usize,
-    rays: u64,
+    cost: Cost,
 }
 
 /// Values of cells, row by row from the top left.
@@ -73,7 +74,7 @@ impl Film {
             sums: vec![Sum::default(); size[0] as usize * size[1] as usize],
             pass: 0,
             tiles_done: 0,
-            rays: 0,
+            cost: Cost::default(),
         }
     }
 
@@ -91,8 +92,8 @@ impl Film {
         self.tiles_done == 0 && self.samples() > 0
     }
 
-    pub fn rays(&self) -> u64 {
-        self.rays
+    pub fn cost(&self) -> &Cost {
+        &self.cost
     }
 
     /// Pixels along the edge of a cell in the pass under way.
@@ -108,10 +109,11 @@ impl Film {
         let tiles = across * resolution[1].div_ceil(TILE) as usize;
         let range = self.tiles_done..(self.tiles_done + TILES_PER_STEP).min(tiles);
         let tile = |index: usize| Tile::new(index, across, resolution);
-        let exposed: Vec<Option<Vec<Sight>>> =
+        let exposed: Vec<Option<(Vec<Sight>, Cost)>> =
             range.clone().into_par_iter().map(|index| self.expose_tile(&tile(index), cell, eye, cancel)).collect();
         let Some(exposed) = exposed.into_iter().collect::<Option<Vec<_>>>() else { return false };
-        for (index, sights) in range.clone().zip(exposed) {
+        for (index, (sights, cost)) in range.clone().zip(exposed) {
+            self.cost.add(&cost);
             self.keep(&tile(index), resolution[0], &sights);
         }
         self.tiles_done = range.end;
@@ -121,35 +123,34 @@ impl Film {
         true
     }
 
-    fn expose_tile(&self, tile: &Tile, cell: u32, eye: &dyn Look, cancel: &Cancel) -> Option<Vec<Sight>> {
+    fn expose_tile(&self, tile: &Tile, cell: u32, eye: &dyn Look, cancel: &Cancel) -> Option<(Vec<Sight>, Cost)> {
         let mut sights = Vec::with_capacity((TILE * TILE) as usize);
-        let mut scratch = Scratch::default();
+        let (mut scratch, mut cost) = (Scratch::default(), Cost::default());
         for y in tile.rows.clone() {
             if cancel.is_requested() {
                 return None;
             }
             for x in tile.columns.clone() {
-                sights.push(self.sample([x, y], cell, eye, &mut scratch));
+                sights.push(self.sample([x, y], cell, eye, &mut scratch, &mut cost));
             }
         }
-        Some(sights)
+        Some((sights, cost))
     }
 
     /// One sample of a cell: of a coarse one in its middle, of a pixel anywhere in it.
-    fn sample(&self, at: [u32; 2], cell: u32, eye: &dyn Look, scratch: &mut Scratch) -> Sight {
+    fn sample(&self, at: [u32; 2], cell: u32, eye: &dyn Look, scratch: &mut Scratch, cost: &mut Cost) -> Sight {
         let [x, y] = at.map(|i| i * cell);
         let pixel = u64::from(y) * u64::from(self.size[0]) + u64::from(x);
         let mut draws = Draws::new(self.seed, pixel, self.samples());
         let inside = if cell == 1 { draws.spread(Use::Pixel, 0, 1) } else { Vec2::splat(0.5) };
         let place = Vec2::new(x as f32, y as f32) + inside * cell as f32;
-        eye.look(self.eye_rays.through(place.to_array()), self.media, &mut draws, scratch)
+        eye.look(self.eye_rays.through(place.to_array()), self.media, &mut Tools { draws: &mut draws, scratch, cost })
     }
 
     fn keep(&mut self, tile: &Tile, width: u32, sights: &[Sight]) {
         let cells = tile.rows.clone().flat_map(|y| tile.columns.clone().map(move |x| (y * width + x) as usize));
         let is_coarse = self.pass < COARSE_CELLS.len();
         for (cell, sight) in cells.zip(sights) {
-            self.rays += sight.rays;
             let covered = if sight.is_surface { 1.0 } else { 0.0 };
             if is_coarse {
                 self.next_coarse.radiance[cell] = sight.radiance;

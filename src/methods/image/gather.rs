@@ -2,14 +2,14 @@
 
 use super::arrivals::ArrivalMaps;
 use super::direct;
-use super::draws::{Draws, Use};
-use super::eye_path::{DiffuseLight, Seen};
+use super::draws::Use;
+use super::eye_path::{DiffuseLight, Seen, Tools};
 use super::lights::direct_light;
 use super::photon_light::PhotonLight;
+use crate::effects::Effect;
 use crate::math::random::Stream;
 use crate::math::rgb::Rgb;
 use crate::math::warp::{cosine_hemisphere, frame};
-use crate::methods::photon_map::Scratch;
 use crate::methods::transport::{Bsdf, Media, Surface, Transport};
 use crate::solution::{Path, PathMatcher, Scattering};
 use crate::tracer::Ray;
@@ -33,33 +33,15 @@ pub struct GatherLight {
 }
 
 impl DiffuseLight for GatherLight {
-    fn leaving(&self, seen: &Seen<'_>, draws: &mut Draws, scratch: &mut Scratch) -> (Rgb, u64) {
-        let (mut radiance, mut rays) = (Rgb::ZERO, 0);
+    fn leaving(&self, seen: &Seen<'_>, tools: &mut Tools<'_>) -> Rgb {
+        let mut radiance = Rgb::ZERO;
         if self.matcher.passes(Path::LIGHT, Some(Scattering::Diffuse), seen.to_eye) {
-            (radiance, rays) = direct_light(&self.transport, seen, self.light_rays, draws);
+            radiance += direct_light(&self.transport, seen, self.light_rays, tools);
         }
-        radiance += self.caustics.leaving(seen, draws, scratch).0;
-        // Behind a mirror a quarter is enough, since less is seen there, and behind two a quarter of these.
-        let count = (self.gather_rays >> (2 * seen.to_eye.len()).min(31)).max(1);
-        let around = frame(seen.surface.normal);
-        let mut sum = Rgb::ZERO;
-        for i in 0..count {
-            // Only what the eye sees directly is the same in every sample of a pixel.
-            let at = if seen.to_eye.is_empty() {
-                draws.spread(Use::Gather, i, count)
-            } else {
-                stratified(i, count, &mut draws.stream)
-            };
-            let direction = around * cosine_hemisphere(at);
-            if direction.dot(seen.surface.facing) > 0.0 {
-                let ray = self.transport.leave(seen.surface, direction);
-                // A filter tells paths apart by their last bounces, which are known only without a further one.
-                let (arriving, more) = self.arriving(seen.to_eye, ray, seen.media, self.matcher.passes_all(), draws);
-                sum += arriving;
-                rays += more;
-            }
+        if self.transport.effects.contains(Effect::Caustics) {
+            radiance += self.caustics.leaving(seen, tools);
         }
-        (radiance + seen.bsdf.diffuse() * sum / count.max(1) as f32, rays)
+        radiance + self.indirect(seen, tools)
     }
 }
 
@@ -70,22 +52,47 @@ fn stratified(i: u32, count: u32, stream: &mut Stream) -> Vec2 {
 }
 
 impl GatherLight {
+    /// Radiance that the diffuse lobe sends on of the light from other diffuse surfaces.
+    fn indirect(&self, seen: &Seen<'_>, tools: &mut Tools<'_>) -> Rgb {
+        // Behind a mirror a quarter is enough, since less is seen there, and behind two a quarter of these.
+        let count = (self.gather_rays >> (2 * seen.to_eye.len()).min(31)).max(1);
+        if !self.transport.effects.contains(Effect::Interreflection) {
+            tools.cost.save(Effect::Interreflection, count);
+            return Rgb::ZERO;
+        }
+        let around = frame(seen.surface.normal);
+        let mut sum = Rgb::ZERO;
+        for i in 0..count {
+            // Only what the eye sees directly is the same in every sample of a pixel.
+            let at = if seen.to_eye.is_empty() {
+                tools.draws.spread(Use::Gather, i, count)
+            } else {
+                stratified(i, count, &mut tools.draws.stream)
+            };
+            let direction = around * cosine_hemisphere(at);
+            if direction.dot(seen.surface.facing) > 0.0 {
+                let ray = self.transport.leave(seen.surface, direction);
+                // A filter tells paths apart by their last bounces, which are known only without a further one.
+                sum += self.arriving(seen.to_eye, ray, seen.media, self.matcher.passes_all(), tools);
+            }
+        }
+        seen.bsdf.diffuse() * sum / count as f32
+    }
+
     /// Radiance that arrives along a gathering ray, without what comes from emitters directly or over specular surfaces, which
-    /// is known already; and the rays that this took. With `refines`, what is near is gathered one bounce further.
-    fn arriving(&self, to_eye: Path, mut ray: Ray, mut media: Media, refines: bool, draws: &mut Draws) -> (Rgb, u64) {
-        let (mut radiance, mut rays) = (Rgb::ZERO, 0);
+    /// is known already. With `refines`, what is near is gathered one bounce further.
+    fn arriving(&self, to_eye: Path, mut ray: Ray, mut media: Media, refines: bool, tools: &mut Tools<'_>) -> Rgb {
+        let mut radiance = Rgb::ZERO;
         let mut throughput = Rgb::ONE;
         for event in 0..MAX_EVENTS {
-            rays += 1;
+            tools.cost.spend(Effect::Interreflection, 1);
             let Some(surface) = self.transport.meet(&ray) else { break };
             let bsdf = self.transport.bsdf(&surface, -ray.direction, &media);
             if bsdf.diffuse() != Rgb::ZERO {
                 let is_near = event == 0 && surface.distance < NEAR_ELEMENTS * self.transport.world.element_size;
                 if refines && is_near {
-                    let (leaving, more) =
-                        self.leaving_near(&surface, &bsdf.only(Scattering::Diffuse), to_eye, media, draws);
-                    radiance += throughput * leaving;
-                    rays += more;
+                    let bsdf = bsdf.only(Scattering::Diffuse);
+                    radiance += throughput * self.leaving_near(&surface, &bsdf, to_eye, media, tools);
                 } else {
                     let irradiance = self.arrivals.irradiance(&self.matcher, &surface, event, to_eye);
                     radiance += throughput * bsdf.diffuse() * irradiance / PI;
@@ -94,33 +101,28 @@ impl GatherLight {
             if !bsdf.is_specular() {
                 break;
             }
-            let Some(sample) = bsdf.only(Scattering::Specular).sample(throughput, &mut draws.stream) else { break };
+            let Some(sample) = bsdf.only(Scattering::Specular).sample(throughput, &mut tools.draws.stream) else {
+                break;
+            };
             throughput *= sample.weight * sample.narrowing;
             if sample.crosses {
                 media = self.transport.media_behind(&surface, media);
             }
             ray = self.transport.leave(&surface, sample.direction);
         }
-        (radiance, rays)
+        radiance
     }
 
     /// Radiance that a place near by sends: its own direct light, the photons of caustics, and one gathering ray further.
-    fn leaving_near(
-        &self,
-        surface: &Surface,
-        bsdf: &Bsdf,
-        to_eye: Path,
-        media: Media,
-        draws: &mut Draws,
-    ) -> (Rgb, u64) {
-        let direct = direct::random(&self.transport, surface, bsdf, draws);
+    fn leaving_near(&self, surface: &Surface, bsdf: &Bsdf, to_eye: Path, media: Media, tools: &mut Tools<'_>) -> Rgb {
+        let direct = direct::random(&self.transport, surface, bsdf, tools);
         let caustic = self.arrivals.caustic_irradiance(surface);
-        let direction = frame(surface.normal) * cosine_hemisphere(draws.stream.uniform2());
-        let (indirect, rays) = if direction.dot(surface.facing) > 0.0 {
-            self.arriving(to_eye, self.transport.leave(surface, direction), media, false, draws)
+        let direction = frame(surface.normal) * cosine_hemisphere(tools.draws.stream.uniform2());
+        let indirect = if direction.dot(surface.facing) > 0.0 {
+            self.arriving(to_eye, self.transport.leave(surface, direction), media, false, tools)
         } else {
-            (Rgb::ZERO, 0)
+            Rgb::ZERO
         };
-        (direct + bsdf.diffuse() * (caustic / PI + indirect), rays + 1)
+        direct + bsdf.diffuse() * (caustic / PI + indirect)
     }
 }

@@ -1,10 +1,9 @@
 //! Where the light of diffuse surfaces is known from, one for each view.
 
 use super::direct;
-use super::draws::Draws;
-use super::eye_path::{DiffuseLight, Seen};
+use super::eye_path::{DiffuseLight, Seen, Tools};
+use crate::effects::Effect;
 use crate::math::rgb::Rgb;
-use crate::methods::photon_map::Scratch;
 use crate::methods::transport::Transport;
 use crate::solution::{Path, PathMatcher, Scattering, Solution};
 use std::f32::consts::PI;
@@ -18,20 +17,24 @@ pub struct DirectLight {
 }
 
 impl DiffuseLight for DirectLight {
-    fn leaving(&self, seen: &Seen<'_>, draws: &mut Draws, _scratch: &mut Scratch) -> (Rgb, u64) {
+    fn leaving(&self, seen: &Seen<'_>, tools: &mut Tools<'_>) -> Rgb {
         if !self.matcher.passes(Path::LIGHT, Some(Scattering::Diffuse), seen.to_eye) {
-            return (Rgb::ZERO, 0);
+            return Rgb::ZERO;
         }
-        direct_light(&self.transport, seen, self.rays, draws)
+        direct_light(&self.transport, seen, self.rays, tools)
     }
 }
 
 /// Well spread rays where the eye looks directly; behind a mirror one is enough.
-pub fn direct_light(transport: &Transport, seen: &Seen<'_>, rays: u32, draws: &mut Draws) -> (Rgb, u64) {
-    if seen.to_eye.is_empty() {
-        (direct::spread(transport, seen.surface, seen.bsdf, rays, draws), rays.into())
+pub fn direct_light(transport: &Transport, seen: &Seen<'_>, rays: u32, tools: &mut Tools<'_>) -> Rgb {
+    let rays = if seen.to_eye.is_empty() { rays } else { 1 };
+    if !transport.effects.contains(Effect::DirectLight) {
+        tools.cost.save(Effect::DirectLight, rays);
+        Rgb::ZERO
+    } else if seen.to_eye.is_empty() {
+        direct::spread(transport, seen.surface, seen.bsdf, rays, tools)
     } else {
-        (direct::random(transport, seen.surface, seen.bsdf, draws), 1)
+        direct::random(transport, seen.surface, seen.bsdf, tools)
     }
 }
 
@@ -51,10 +54,10 @@ impl RadiosityLight {
 }
 
 impl DiffuseLight for RadiosityLight {
-    fn leaving(&self, seen: &Seen<'_>, _draws: &mut Draws, _scratch: &mut Scratch) -> (Rgb, u64) {
+    fn leaving(&self, seen: &Seen<'_>, _tools: &mut Tools<'_>) -> Rgb {
         let mesh = &self.transport.world.mesh;
         let location = mesh.locate(seen.surface.polygon, seen.surface.is_front, seen.surface.point);
         let irradiance = location.map_or(Rgb::ZERO, |location| mesh.interpolate(&location, &self.vertex_irradiance));
-        (seen.bsdf.diffuse() * irradiance / PI, 0)
+        seen.bsdf.diffuse() * irradiance / PI
     }
 }

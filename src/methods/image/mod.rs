@@ -3,6 +3,7 @@
 
 mod ambient;
 mod arrivals;
+mod cost;
 mod direct;
 mod draws;
 mod eye_path;
@@ -60,7 +61,8 @@ impl Sources {
     }
 
     fn photon_light(&self, shown: Shown, is_caustic: bool, settings: &ImageSettings) -> Option<PhotonLight> {
-        Some(PhotonLight::new(self.photons.clone()?, shown, is_caustic, &settings.filter.matcher()))
+        let matcher = settings.filter.matcher();
+        Some(PhotonLight::new(self.photons.clone()?, shown, is_caustic, &matcher, self.transport.effects))
     }
 
     fn look(&self, view: CameraView, settings: &Settings) -> Option<Arc<dyn Look>> {
@@ -127,6 +129,10 @@ impl ImageRun {
         is_there
     }
 
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
     /// Samples a pixel that are done.
     pub fn samples(&self) -> u32 {
         self.film.samples()
@@ -157,7 +163,8 @@ impl ImageRun {
             radiance: developed.radiance,
             coverage: developed.coverage,
             samples: self.film.samples(),
-            rays: self.film.rays(),
+            rays: self.film.cost().rays,
+            bill: self.film.cost().bill,
             elapsed: Duration::ZERO,
             is_complete: self.film.samples() >= self.settings.image.samples,
         })

@@ -1,9 +1,9 @@
 //! Light estimated from the photons near by.
 
-use super::draws::Draws;
-use super::eye_path::{DiffuseLight, Seen};
+use super::eye_path::{DiffuseLight, Seen, Tools};
+use crate::effects::{Effect, Effects};
 use crate::math::rgb::Rgb;
-use crate::methods::photon_map::{PhotonFilter, PhotonMaps, Scratch, Which};
+use crate::methods::photon_map::{PhotonFilter, PhotonMaps, Which};
 use crate::solution::{Path, PathMatcher, Scattering};
 use std::f32::consts::PI;
 use std::sync::Arc;
@@ -31,32 +31,36 @@ pub struct PhotonLight {
 }
 
 impl PhotonLight {
-    pub fn new(maps: Arc<PhotonMaps>, shown: Shown, is_caustic: bool, matcher: &PathMatcher) -> Self {
+    /// What the maps hold of the simulated effects.
+    pub fn new(maps: Arc<PhotonMaps>, shown: Shown, is_caustic: bool, matcher: &PathMatcher, effects: Effects) -> Self {
+        let shows_direct = effects.contains(Effect::DirectLight);
         let specular = |events| (0..events).fold(Path::LIGHT, |path, _| path.then(Scattering::Specular));
         let filter = |events| {
             let passes = |path: Path| matcher.passes(path, Some(Scattering::Diffuse), specular(events));
-            maps.filter(|path| (path.is_caustic() || !is_caustic) && passes(path))
+            let counts = |path: Path| (path.is_caustic() || !is_caustic) && (shows_direct || !path.is_empty());
+            maps.filter(|path| counts(path) && passes(path))
         };
-        let filters = (!matcher.passes_all()).then(|| (0..TOLD_APART).map(filter).collect());
+        let all_count = matcher.passes_all() && (shows_direct || is_caustic);
+        let filters = (!all_count).then(|| (0..TOLD_APART).map(filter).collect());
         Self { filters, maps, shown, is_caustic }
     }
 }
 
 impl DiffuseLight for PhotonLight {
-    fn leaving(&self, seen: &Seen<'_>, _draws: &mut Draws, scratch: &mut Scratch) -> (Rgb, u64) {
+    fn leaving(&self, seen: &Seen<'_>, tools: &mut Tools<'_>) -> Rgb {
         let which = match &self.filters {
             Some(filters) => match filters.get(seen.to_eye.len()) {
                 Some(filter) => Which::Filtered(filter),
-                None => return (Rgb::ZERO, 0),
+                None => return Rgb::ZERO,
             },
             None if self.is_caustic => Which::Caustics,
             None => Which::All,
         };
-        let irradiance = self.maps.irradiance(seen.surface, which, scratch).irradiance;
+        let irradiance = self.maps.irradiance(seen.surface, which, tools.scratch).irradiance;
         let reflected = match self.shown {
             Shown::Irradiance => irradiance,
             Shown::Radiance => seen.bsdf.diffuse() * irradiance,
         };
-        (reflected / PI, 0)
+        reflected / PI
     }
 }

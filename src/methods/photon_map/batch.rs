@@ -81,7 +81,6 @@ impl Witness for Record<'_> {
     fn met(&mut self, arrival: &Arrival, roulette: &Roulette) {
         let lands = arrival.diffuse != Rgb::ZERO;
         let is_caustic = arrival.path.is_caustic();
-        let kept = roulette.scattering.map(|_| roulette.flux);
         match self.kind {
             MapKind::Global => {
                 let is_stored = lands && (self.keeps_caustics || !is_caustic);
@@ -91,14 +90,14 @@ impl Witness for Record<'_> {
                 if is_stored {
                     self.store(arrival);
                 }
-                self.batch.tally.scatter(arrival, kept);
+                self.batch.tally.scatter(arrival, roulette);
             }
             MapKind::Caustic => {
                 if lands && is_caustic {
                     self.batch.tally.land_caustic();
                     self.store(arrival);
                 }
-                if kept.is_some() {
+                if roulette.scattering.is_some() {
                     self.batch.tally.trace_caustic();
                 }
             }

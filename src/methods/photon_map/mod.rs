@@ -33,9 +33,10 @@ pub use trail::trail;
 pub use tree::{Entry, Found, Tree};
 
 use crate::cancel::{Cancel, Cancelled};
+use crate::effects::Effect;
 use crate::math::rgb::Rgb;
 use crate::methods::transport::Transport;
-use crate::methods::{PhotonSettings, Settings, Step};
+use crate::methods::{PhotonSettings, Settings, Step, repertoire};
 use crate::solution::{Photon, PhotonSolution, PhotonTrail};
 use batch::Batch;
 use ground::Ground;
@@ -87,13 +88,10 @@ pub struct PhotonMapping {
 
 impl PhotonMapping {
     pub fn new(transport: Arc<Transport>, settings: &Settings) -> Self {
-        let materials = &transport.world.scene.materials;
-        let is_specular = |material: u32| materials[material as usize].lobes().is_specular();
-        let any_specular = transport.world.scene.polygons.iter().any(|polygon| is_specular(polygon.material));
-        let is_diffuse = |material: u32| materials[material as usize].lobes().diffuse != Rgb::ZERO;
+        let is_diffuse = |material: u32| transport.lobes(material).diffuse != Rgb::ZERO;
         let landing = transport.world.mesh.patches.iter().filter(|patch| is_diffuse(patch.material));
         Self {
-            has_caustic_map: any_specular && settings.photons.caustic_count > 0,
+            has_caustic_map: transport.effects.contains(Effect::Caustics) && settings.photons.caustic_count > 0,
             area: landing.map(|patch| patch.area).sum(),
             ground: Arc::default(),
             settings: *settings,
@@ -127,6 +125,10 @@ impl PhotonMapping {
             self.tally.merge(&part.tally);
             self.fresh.append(&mut part.photons);
         }
+        if !self.transport.effects.contains(Effect::Caustics) {
+            let skipped = |position| u64::from(self.settings.photons.caustic_count) * position / self.length();
+            self.tally.save(Effect::Caustics, skipped(to) - skipped(from));
+        }
         self.position = to;
         self.batches += 1;
         let grown = (self.photons.len() + self.fresh.len()) as f64 >= GROWTH * self.photons.len() as f64;
@@ -142,8 +144,11 @@ impl PhotonMapping {
         let PhotonSettings { count, caustic_count, is_progressive, .. } = *old;
         // Passes whose radii do not belong together have no mean.
         let keeps_radii = !is_progressive || (old.nearest, old.max_radius) == (new.nearest, new.max_radius);
-        let same = PhotonSettings { count, caustic_count, is_progressive, ..*new } == *new;
-        if !(same && keeps_radii && self.settings.seed == settings.seed) {
+        let effects = settings.effects.simulated_in(&self.transport.world).among(repertoire::of_photons());
+        let same = PhotonSettings { count, caustic_count, is_progressive, ..*new } == *new
+            && self.settings.seed == settings.seed
+            && self.transport.effects.among(repertoire::of_photons()) == effects;
+        if !(same && keeps_radii) {
             return false;
         }
         self.settings = *settings;
@@ -227,7 +232,8 @@ impl PhotonMapping {
         let trace = |kind| {
             let photons: Range<u64> = self.photons_up_to(kind, from)..self.photons_up_to(kind, to);
             let shower = Shower::new(&self.transport, &self.settings, pass, kind);
-            Batch::trace(&shower, photons, !self.has_caustic_map, cancel)
+            let keeps_caustics = self.transport.effects.contains(Effect::Caustics) && !self.has_caustic_map;
+            Batch::trace(&shower, photons, keeps_caustics, cancel)
         };
         let mut parts = trace(MapKind::Global)?;
         parts.append(&mut trace(MapKind::Caustic)?);

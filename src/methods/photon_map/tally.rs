@@ -1,6 +1,7 @@
 //! The books of photons: where their flux went, and how many of them did what.
 
-use super::trace::Arrival;
+use super::trace::{Arrival, Roulette};
+use crate::effects::Effect;
 use crate::math::rgb::Rgb;
 use crate::solution::{Path, PhotonCounters, PhotonEnergy, Scattering};
 
@@ -40,14 +41,24 @@ impl Tally {
         self.counters.rays += 1;
     }
 
-    /// `kept` is the flux with which the photon goes on, if it does.
-    pub fn scatter(&mut self, arrival: &Arrival, kept: Option<Rgb>) {
-        self.energy.absorbed += arrival.flux.as_dvec3() - kept.unwrap_or(Rgb::ZERO).as_dvec3();
-        if kept.is_some() {
+    pub fn scatter(&mut self, arrival: &Arrival, roulette: &Roulette) {
+        self.energy.absorbed += arrival.flux.as_dvec3() - roulette.flux.as_dvec3();
+        let goes_on = roulette.scattering.is_some();
+        if goes_on {
             self.counters.rays += 1;
         } else {
             self.counters.absorbed += 1;
         }
+        match roulette.effect {
+            Some(effect) if goes_on => self.counters.bill.spend(effect, 1),
+            Some(effect) => self.counters.bill.save(effect, 1),
+            None => {}
+        }
+    }
+
+    /// Rays that skipping an effect saved.
+    pub fn save(&mut self, effect: Effect, rays: u64) {
+        self.counters.bill.save(effect, rays);
     }
 
     pub fn land(&mut self, path: Path, is_stored: bool) {
@@ -77,7 +88,7 @@ impl Tally {
 
     pub fn emit_caustic(&mut self) {
         self.counters.caustic_emitted += 1;
-        self.counters.rays += 1;
+        self.trace_caustic();
     }
 
     pub fn land_caustic(&mut self) {
@@ -86,6 +97,7 @@ impl Tally {
 
     pub fn trace_caustic(&mut self) {
         self.counters.rays += 1;
+        self.counters.bill.spend(Effect::Caustics, 1);
     }
 
     /// Adds what came after.
@@ -104,6 +116,7 @@ impl Tally {
         sum.escaped += more.escaped;
         sum.truncated += more.truncated;
         sum.rays += more.rays;
+        sum.bill += &more.bill;
         sum.by_bounce.resize(sum.by_bounce.len().max(more.by_bounce.len()), 0);
         add(&mut sum.by_bounce, &more.by_bounce);
         add(&mut self.named, &other.named);

@@ -1,5 +1,6 @@
 //! The way of one photon: emitted, scattered under Russian roulette (Arvo, Kirk 1990), absorbed or gone.
 
+use crate::effects::Effect;
 use crate::math::random::Stream;
 use crate::math::rgb::Rgb;
 use crate::methods::Settings;
@@ -54,6 +55,8 @@ pub struct Roulette {
     pub survival: f32,
     /// How it went on; `None` where it was absorbed.
     pub scattering: Option<Scattering>,
+    /// By which effect it went on, or would have if that were simulated.
+    pub effect: Option<Effect>,
     /// Flux with which it went on, W: 0 where it was absorbed.
     pub flux: Rgb,
 }
@@ -92,7 +95,7 @@ impl<'a> Shower<'a> {
                 witness.escaped(flux, ray.direction);
                 return;
             };
-            let bsdf = self.transport.bsdf(&surface, -ray.direction, &media);
+            let bsdf = self.transport.whole_bsdf(&surface, -ray.direction, &media);
             let arrival = Arrival { surface: &surface, flux, direction: ray.direction, path, diffuse: bsdf.diffuse() };
             let (roulette, onward) = self.play(&bsdf, flux, &mut stream);
             witness.met(&arrival, &roulette);
@@ -116,8 +119,10 @@ impl<'a> Shower<'a> {
         };
         let survival = ((flux * bsdf.albedo()).max_element() / flux.max_element()).clamp(0.0, 1.0);
         let sample = if stream.uniform() < survival { bsdf.sample(flux, stream) } else { None };
+        let effect = sample.map(|sample| sample.effect());
+        let sample = sample.filter(|sample| self.transport.effects.contains(sample.effect()));
         let kept = sample.map_or(Rgb::ZERO, |sample| flux * sample.weight / survival);
-        let roulette = Roulette { survival, scattering: sample.map(|sample| sample.scattering), flux: kept };
+        let roulette = Roulette { survival, scattering: sample.map(|sample| sample.scattering), effect, flux: kept };
         (roulette, sample.map(|sample| (sample.direction, sample.crosses)))
     }
 }

@@ -3,8 +3,10 @@
 use super::form_factor::{FormFactors, Outcome};
 use super::matrix::{Columns, Matrix};
 use super::relax::{Relaxation, System};
+use super::simulated;
 use super::surfaces::Surfaces;
 use crate::cancel::Cancel;
+use crate::effects::{Effect, Effects};
 use crate::math::rgb::{Rgb, Rgb64};
 use crate::mesh::Mesh;
 use crate::methods::{Method, Settings, Solver, Step};
@@ -26,6 +28,9 @@ pub struct FullMatrix {
     /// See [`Solution::bounces`].
     bounces: Vec<Arc<Vec<Rgb>>>,
 }
+
+/// Effects that the matrix depends on. Of colours, the number of rays does.
+const SHAPING: Effects = Effects::of(&[Effect::Shadows, Effect::Colour, Effect::Escape]);
 
 enum Stage {
     /// Columns are computed, one a step.
@@ -50,7 +55,7 @@ impl FullMatrix {
             columns: Columns::new(mesh),
         };
         Self {
-            surfaces: Surfaces::new(&world),
+            surfaces: Surfaces::new(&world, simulated(&world, &settings)),
             stage: Stage::Building(Box::new(building)),
             counters: Counters::default(),
             steps: 0,
@@ -142,12 +147,17 @@ impl FullMatrix {
         self.bounces.push(Arc::new(light.radiosity));
     }
 
-    /// E of each element from what patches have sent, W/m².
+    /// E of each element from what patches have sent, W/m²; where direct light is not simulated, without what was emitted.
     fn irradiance(&self) -> Vec<Rgb64> {
         let elements = self.world.mesh.elements.len();
         let Stage::Solving(matrix, relaxation) = &self.stage else { return vec![Rgb64::ZERO; elements] };
-        let sent: Vec<Rgb64> =
-            relaxation.sent().iter().zip(&matrix.closing).map(|(sent, closing)| *sent * *closing).collect();
+        let is_direct_shown = self.surfaces.effects.contains(Effect::DirectLight);
+        let shown = |(sent, exitance): (&Rgb64, &Rgb64)| {
+            // Whatever a patch sends first, what it emits is a part of it.
+            if is_direct_shown || *sent == Rgb64::ZERO { *sent } else { *sent - *exitance }
+        };
+        let sent = relaxation.sent().iter().zip(&self.surfaces.exitance).map(shown);
+        let sent: Vec<Rgb64> = sent.zip(&matrix.closing).map(|(sent, closing)| sent * *closing).collect();
         let mut irradiance = vec![Rgb64::ZERO; elements];
         let chunk = elements.div_ceil(4 * rayon::current_num_threads()).max(1);
         // Each element's sum runs over the patches in their order, however the elements are shared out.
@@ -171,7 +181,7 @@ fn system<'a>(surfaces: &'a Surfaces, matrix: &'a Matrix) -> System<'a> {
         form_factors: &matrix.patches.form_factors,
         closing: &matrix.closing,
         area: &surfaces.area,
-        reflectance: &surfaces.reflectance,
+        reflectance: &surfaces.bouncing,
         exitance: &surfaces.exitance,
     }
 }
@@ -188,20 +198,24 @@ impl Method for FullMatrix {
 
     /// The stop rule may change on the way.
     fn configure(&mut self, settings: &Settings) -> bool {
-        let same = self.settings.is_same_radiosity(settings);
+        let same =
+            self.settings.is_same_radiosity(settings) && self.surfaces.effects == simulated(&self.world, settings);
         if same {
             self.settings = *settings;
         }
         same
     }
 
-    /// The matrix is the same for all solvers.
+    /// The matrix is the same for all solvers, and with and without most effects.
     fn restart(&mut self, settings: &Settings) -> bool {
         let Settings { solver, unshot_limit, overshoot, .. } = *settings;
         let kept = Settings { solver, unshot_limit, overshoot, ..self.settings };
-        if !solver.needs_matrix() || !kept.is_same_radiosity(settings) {
+        let effects = simulated(&self.world, settings);
+        let is_same_matrix = effects.among(SHAPING) == self.surfaces.effects.among(SHAPING);
+        if !solver.needs_matrix() || !kept.is_same_radiosity(settings) || !is_same_matrix {
             return false;
         }
+        self.surfaces = Surfaces::new(&self.world, effects);
         if let Stage::Solving(matrix, relaxation) = &mut self.stage {
             *relaxation = Relaxation::new(&system(&self.surfaces, matrix));
         }

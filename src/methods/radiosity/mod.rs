@@ -19,9 +19,18 @@ pub use relax::{Relaxation, System};
 pub use sensor::irradiance_in_space;
 pub use surfaces::mean_indirect_irradiance;
 
-use crate::methods::{Method, Settings, Solver};
+use crate::effects::{Effect, Effects, needed};
+use crate::methods::{Method, Settings, Solver, repertoire};
 use crate::world::World;
 use std::sync::Arc;
+
+/// The effects that radiosity simulates in a world. Form factors are shown where there is no light, too, so that shadows
+/// count there.
+pub fn simulated(world: &World, settings: &Settings) -> Effects {
+    let needed = needed(world);
+    let needed = if world.has_occluders { needed.and(Effects::of(&[Effect::Shadows])) } else { needed };
+    settings.effects.among(repertoire::of_radiosity(settings.form_factor)).simulated(needed)
+}
 
 /// A run of the solver that the settings ask for, in which all light is still in the emitters.
 pub fn start(world: Arc<World>, settings: &Settings) -> Box<dyn Method> {

@@ -1,6 +1,7 @@
 //! What one patch sees.
 
 use super::form_factor::{FormFactors, Hemicubes, Shot};
+use super::simulated;
 use super::surfaces::Surfaces;
 use crate::cancel::Cancel;
 use crate::methods::Settings;
@@ -16,7 +17,8 @@ const MAX_RAYS: f64 = 1e6;
 pub fn pick(world: &World, settings: &Settings, patch: u32, cancel: &Cancel) -> Option<Picked> {
     let mesh = &world.mesh;
     let shooter = &mesh.patches[patch as usize];
-    let shot = Surfaces::new(world).expected_shot(world, patch as usize, settings.seed, cancel);
+    let shot =
+        Surfaces::new(world, simulated(world, settings)).expected_shot(world, patch as usize, settings.seed, cancel);
     let shot = Shot { flux_share: shot.flux_share.min(MAX_RAYS / f64::from(settings.light_rays)), ..shot };
     let mut form_factors = vec![0.0; mesh.elements.len()];
     let outcome = FormFactors::new(mesh, settings).toward(&shot, &mut form_factors);

@@ -4,13 +4,16 @@
 
 use super::form_factor::{FormFactors, Outcome, Shot};
 use super::ledger::Ledger;
+use super::simulated;
 use super::surfaces::Surfaces;
 use crate::cancel::Cancel;
+use crate::effects::Effect;
 use crate::math::rgb::{Rgb64, total};
 use crate::mesh::Mesh;
 use crate::methods::{Method, Settings, Step};
 use crate::solution::{Counters, Energy, Progress, Solution, missing_share};
 use crate::world::World;
+use std::borrow::Cow;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -24,6 +27,8 @@ pub struct Progressive {
     unshot: Vec<Rgb64>,
     /// E of each element, W/m².
     irradiance: Vec<Rgb64>,
+    /// Where direct light is not simulated: what is known of it, in order not to show it.
+    direct: Option<DirectLight>,
     /// Form factor from each element to the present shooter, with visibility.
     form_factors: Vec<f64>,
     ledger: Ledger,
@@ -33,14 +38,26 @@ pub struct Progressive {
     shooter: Option<u32>,
 }
 
+/// The part of light that comes straight from the emitters.
+struct DirectLight {
+    /// M_e of each patch that it has not shot yet, W/m².
+    exitance: Vec<Rgb64>,
+    /// E of each element, W/m².
+    irradiance: Vec<Rgb64>,
+}
+
 impl Progressive {
     /// A run in which all light is still in the emitters.
     pub fn new(world: Arc<World>, settings: Settings) -> Self {
-        let surfaces = Surfaces::new(&world);
+        let surfaces = Surfaces::new(&world, simulated(&world, &settings));
         let elements = world.mesh.elements.len();
+        let dark = vec![Rgb64::ZERO; elements];
+        let is_direct_shown = surfaces.effects.contains(Effect::DirectLight);
+        let direct = DirectLight { exitance: surfaces.exitance.clone(), irradiance: dark.clone() };
         Self {
             unshot: surfaces.exitance.clone(),
-            irradiance: vec![Rgb64::ZERO; elements],
+            irradiance: dark,
+            direct: (!is_direct_shown).then_some(direct),
             form_factors: vec![0.0; elements],
             ledger: Ledger::default(),
             counters: Counters::default(),
@@ -60,6 +77,18 @@ impl Progressive {
         brightest.filter(|&(_, flux)| flux > 0.0).map(|(patch, _)| patch)
     }
 
+    /// E of each element as it is shown, W/m².
+    fn shown_irradiance(&self) -> Cow<'_, [Rgb64]> {
+        match &self.direct {
+            None => Cow::Borrowed(&self.irradiance),
+            Some(direct) => {
+                let all = self.irradiance.iter().zip(&direct.irradiance);
+                // Of what is direct alone, rounding must leave nothing below 0.
+                Cow::Owned(all.map(|(all, direct)| (*all - *direct).max(Rgb64::ZERO)).collect())
+            }
+        }
+    }
+
     fn has_converged(&self) -> bool {
         self.surfaces.share_of_emitted(&self.unshot) <= self.settings.unshot_limit
     }
@@ -72,7 +101,7 @@ impl Progressive {
             return unshot;
         }
         let ambient = self.surfaces.ambient(self.surfaces.flux(&self.unshot)).max(Rgb64::ZERO);
-        unshot + self.surfaces.reflectance[patch] * ambient
+        unshot + self.surfaces.bouncing[patch] * ambient
     }
 
     /// Hands the shooter's flux to the elements and to the void.
@@ -81,8 +110,15 @@ impl Progressive {
         let Mesh { patches, elements, .. } = &self.world.mesh;
         let area = self.surfaces.area[patch];
         let row = row_sum(&self.world.mesh, &self.form_factors) / area;
-        let scaled = radiosity * self.ledger.close_row(radiosity * area, row, escaping);
-        let reflecting = self.surfaces.reflectance.iter().zip(&self.surfaces.area);
+        let closing = self.ledger.close_row(radiosity * area, row, escaping);
+        let scaled = radiosity * closing;
+        if let Some(DirectLight { exitance, irradiance }) = &mut self.direct {
+            let emitted = std::mem::take(&mut exitance[patch]) * closing;
+            for (irradiance, form_factor) in irradiance.iter_mut().zip(&self.form_factors) {
+                *irradiance += emitted * *form_factor;
+            }
+        }
+        let reflecting = self.surfaces.bouncing.iter().zip(&self.surfaces.area);
         for ((receiver, unshot), (reflectance, area)) in patches.iter().zip(&mut self.unshot).zip(reflecting) {
             let range = receiver.elements.start as usize..receiver.elements.end as usize;
             let mut received = Rgb64::ZERO;
@@ -121,6 +157,7 @@ impl Method for Progressive {
             patch: patch as u32,
             relative_radiosity: amount / self.expected_irradiance,
             flux_share: amount * self.surfaces.area[patch] / total(self.surfaces.emitted),
+            effects: self.surfaces.effects,
             seed: self.settings.seed,
             pass: self.counters.updates,
             cancel,
@@ -138,7 +175,8 @@ impl Method for Progressive {
 
     /// The stop rule may change on the way; everything else would have led elsewhere from the first shot.
     fn configure(&mut self, settings: &Settings) -> bool {
-        let same = self.settings.is_same_radiosity(settings);
+        let same =
+            self.settings.is_same_radiosity(settings) && self.surfaces.effects == simulated(&self.world, settings);
         if same {
             self.settings = *settings;
         }
@@ -176,7 +214,7 @@ impl Method for Progressive {
             unshot_share: self.surfaces.share_of_emitted(&self.unshot),
             mean_irradiance: self.surfaces.mean_irradiance(&patch_irradiance),
             shooter: self.shooter,
-            light: self.surfaces.light(mesh, &self.irradiance, &self.unshot),
+            light: self.surfaces.light(mesh, &self.shown_irradiance(), &self.unshot),
             ambient: self.surfaces.ambient(unshot).as_vec3(),
             ..Solution::default()
         }

@@ -2,15 +2,18 @@
 
 use super::form_factor::Shot;
 use crate::cancel::Cancel;
+use crate::effects::{Effect, Effects};
 use crate::math::rgb::{Rgb, Rgb64, total};
 use crate::mesh::{Mesh, Patch};
+use crate::methods::transport::colour;
 use crate::solution::ElementLight;
 use crate::world::World;
 
 /// The irradiance that reflected light is expected to bring to the surfaces of a world on average, W/m²: all that will arrive
-/// if it spreads evenly, without what comes straight from the emitters. In a closed room Φ ρ̄ / (S (1 − ρ̄)).
-pub fn mean_indirect_irradiance(world: &World) -> Rgb {
-    let surfaces = Surfaces::new(world);
+/// if it spreads evenly, without what comes straight from the emitters. In a closed room Φ ρ̄ / (S (1 − ρ̄)). Of the simulated
+/// effects, colours count.
+pub fn mean_indirect_irradiance(world: &World, effects: Effects) -> Rgb {
+    let surfaces = Surfaces::new(world, effects.and(Effects::of(&[Effect::Interreflection])));
     let area = surfaces.total_area();
     if area == 0.0 {
         return Rgb::ZERO;
@@ -23,28 +26,40 @@ pub fn mean_indirect_irradiance(world: &World) -> Rgb {
 pub struct Surfaces {
     /// Exposed area, m².
     pub area: Vec<f64>,
-    /// ρ
-    pub reflectance: Vec<Rgb64>,
+    /// ρ, as it is seen.
+    reflectance: Vec<Rgb64>,
+    /// ρ, as light goes on by it: 0 where no interreflection is simulated.
+    pub bouncing: Vec<Rgb64>,
     /// M_e, W/m²
     pub exitance: Vec<Rgb64>,
     /// Σ A M_e, W
     pub emitted: Rgb64,
+    /// Those that are simulated.
+    pub effects: Effects,
     /// Share of light that leaves the scene on its way from one surface to the next.
     escape_share: f64,
 }
 
 impl Surfaces {
-    pub fn new(world: &World) -> Self {
+    /// With what the simulated effects leave of the materials.
+    pub fn new(world: &World, effects: Effects) -> Self {
         let patches = &world.mesh.patches;
         let material = |patch: &Patch| &world.scene.materials[patch.material as usize];
         // Emitters shine from their front; their back only reflects.
-        let exitance = |patch: &Patch| if patch.is_front { material(patch).exitance().as_dvec3() } else { Rgb64::ZERO };
+        let exitance = |patch: &Patch| {
+            if patch.is_front { colour(material(patch).exitance(), effects).as_dvec3() } else { Rgb64::ZERO }
+        };
+        let reflectance = |patch: &Patch| colour(material(patch).lobes().diffuse, effects).as_dvec3();
+        let reflectance: Vec<Rgb64> = patches.iter().map(reflectance).collect();
+        let reflects = effects.contains(Effect::Interreflection);
         Self {
             area: patches.iter().map(|patch| patch.area).collect(),
-            reflectance: patches.iter().map(|patch| material(patch).lobes().diffuse.as_dvec3()).collect(),
+            bouncing: if reflects { reflectance.clone() } else { vec![Rgb64::ZERO; patches.len()] },
+            reflectance,
             exitance: patches.iter().map(exitance).collect(),
             emitted: patches.iter().map(|patch| exitance(patch) * patch.area).sum(),
-            escape_share: world.escape_share,
+            escape_share: if effects.contains(Effect::Escape) { world.escape_share } else { 0.0 },
+            effects,
         }
     }
 
@@ -74,20 +89,22 @@ impl Surfaces {
         if area == 0.0 {
             return Rgb64::ZERO;
         }
-        let mean = self.flux(&self.reflectance) / area;
+        self.spread_by(&self.bouncing, flux)
+    }
+
+    /// The same with these reflectances.
+    fn spread_by(&self, reflectance: &[Rgb64], flux: Rgb64) -> Rgb64 {
+        let area = self.total_area();
+        let mean = self.flux(reflectance) / area;
         let arriving = 1.0 - self.escape_share;
         flux * arriving / (area * (Rgb64::ONE - mean * arriving))
     }
 
-    /// M_e + ρ E with the ambient irradiance E of all the emitted flux, W/m²: what patches are expected to shoot in all.
-    fn expected_radiosity(&self, patch: usize) -> Rgb64 {
-        self.exitance[patch] + self.reflectance[patch] * self.ambient(self.emitted)
-    }
-
-    /// All that a patch is expected to shoot, as one shot.
+    /// All that a patch would shoot with every bounce of light, M_e + ρ E with the ambient irradiance E, as one shot.
     pub fn expected_shot<'a>(&self, world: &'a World, patch: usize, seed: u64, cancel: &'a Cancel) -> Shot<'a> {
-        let radiosity = total(self.expected_radiosity(patch));
-        let irradiance = total(self.ambient(self.emitted));
+        let ambient = self.spread_by(&self.reflectance, self.emitted);
+        let radiosity = total(self.exitance[patch] + self.reflectance[patch] * ambient);
+        let irradiance = total(ambient);
         let emitted = total(self.emitted);
         Shot {
             world,
@@ -99,15 +116,17 @@ impl Surfaces {
             } else {
                 self.area[patch] / self.total_area()
             },
+            effects: self.effects,
             seed,
             pass: patch as u64,
             cancel,
         }
     }
 
-    /// Σ (1 − ρ) A E: what stays in the surfaces, W. `irradiance` has one entry a patch.
+    /// Σ (1 − ρ) A E: what stays in the surfaces, W, with all that arrives where no interreflection is simulated.
+    /// `irradiance` has one entry a patch.
     pub fn absorbed(&self, irradiance: &[Rgb64]) -> Rgb64 {
-        let absorptance = self.reflectance.iter().map(|reflectance| Rgb64::ONE - *reflectance);
+        let absorptance = self.bouncing.iter().map(|reflectance| Rgb64::ONE - *reflectance);
         irradiance.iter().zip(absorptance).zip(&self.area).map(|((e, absorbing), area)| absorbing * *e * *area).sum()
     }
 

@@ -2,6 +2,7 @@
 
 use super::fresnel::{fresnel_reflectance, reflect, refract};
 use super::{Surface, phong};
+use crate::effects::Effect;
 use crate::math::random::Stream;
 use crate::math::rgb::Rgb;
 use crate::math::warp::{cosine_hemisphere, frame};
@@ -45,6 +46,18 @@ pub struct Sample {
     pub crosses: bool,
     /// Whether directions have no density: mirror and glass.
     pub is_sharp: bool,
+}
+
+impl Sample {
+    /// What it is an instance of.
+    pub fn effect(&self) -> Effect {
+        match self.scattering {
+            Scattering::Diffuse => Effect::Interreflection,
+            Scattering::Specular if self.crosses => Effect::Transmission,
+            Scattering::Specular if self.is_sharp => Effect::SpecularReflection,
+            Scattering::Specular => Effect::Gloss,
+        }
+    }
 }
 
 /// The lobes, in the order in which one is chosen.
@@ -122,6 +135,12 @@ impl Bsdf {
             Self { straight: self.straight, ..none },
         ];
         lobes.into_iter().filter(Self::is_specular)
+    }
+
+    /// Glass that lets light through, and reflects none.
+    #[must_use]
+    pub fn without_reflection(&self) -> Self {
+        Self { reflected: 0.0, ..*self }
     }
 
     fn without_lobes(&self) -> Self {

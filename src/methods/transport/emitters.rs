@@ -61,20 +61,19 @@ pub struct LampPoint {
 }
 
 impl Emitters {
-    /// The emitters of a world; `normal` is the unit normal of a polygon's front.
-    pub fn new(world: &World, normal: impl Fn(usize) -> Vec3A) -> Self {
+    /// The emitters of a world; of a polygon's front, `front` tells the unit normal and the emission, W/(m²·sr).
+    pub fn new(world: &World, front: impl Fn(usize) -> (Vec3A, Rgb)) -> Self {
         let scene = &world.scene;
         let mut lamps = Vec::new();
         for (index, polygon) in scene.polygons.iter().enumerate() {
-            let material = &scene.materials[polygon.material as usize];
-            if !material.is_emitter() {
+            let (normal, radiance) = front(index);
+            if radiance == Rgb::ZERO {
                 continue;
             }
             let corner = |i: usize| Vec3A::from(scene.positions[polygon.corners()[i] as usize]);
             // A quad need not be a parallelogram, on which alone a bilinear map is uniform.
             for i in 2..polygon.corners().len() {
                 let corners = [corner(0), corner(i - 1), corner(i)];
-                let normal = normal(index);
                 let region = Region::new([corners[0], corners[1], corners[2], corners[2]], 3);
                 let [a, b, c] = corners.map(|corner| corner.as_dvec3());
                 lamps.push(Lamp {
@@ -82,7 +81,7 @@ impl Emitters {
                     normal,
                     polygon: index as u32,
                     media: Media::default(),
-                    radiance: material.emission,
+                    radiance,
                     area: 0.5 * (b - a).cross(c - a).length(),
                     chance: 0.0,
                 });

@@ -3,6 +3,7 @@
 
 mod bsdf;
 mod emitters;
+mod filter;
 mod fresnel;
 mod media;
 mod phong;
@@ -10,13 +11,15 @@ mod surface;
 
 pub use bsdf::{Bsdf, Sample};
 pub use emitters::{Emission, Emitters, LampPoint};
+pub use filter::colour;
 pub use fresnel::{fresnel_reflectance, reflect, refract};
 pub use media::Media;
 pub use surface::Surface;
 
+use crate::effects::{Effect, Effects, Switches};
 use crate::math::polygon::vector_area;
 use crate::math::rgb::Rgb;
-use crate::scene::Material;
+use crate::scene::{Lobes, Material};
 use crate::tracer::Ray;
 use crate::world::World;
 use glam::{DVec3, Vec3, Vec3A};
@@ -25,9 +28,24 @@ use std::sync::Arc;
 /// A world made ready for rays that are reflected, refracted and absorbed.
 pub struct Transport {
     pub world: Arc<World>,
+    /// Those that are simulated.
+    pub effects: Effects,
+    /// Of each material.
+    looks: Vec<MaterialLook>,
     facets: Vec<Facet>,
     emitters: Emitters,
     has_glass: bool,
+}
+
+/// What the simulated effects leave of a material.
+struct MaterialLook {
+    lobes: Lobes,
+    /// With those of all effects but colour.
+    whole: Lobes,
+    /// W/(m²·sr)
+    emission: Rgb,
+    /// Effects that it would have, if they were simulated.
+    skipped: Effects,
 }
 
 /// A ray that looks for the glass round a point meets at most so many surfaces.
@@ -45,7 +63,9 @@ struct Facet {
 }
 
 impl Transport {
-    pub fn new(world: Arc<World>) -> Self {
+    /// With the effects that the world calls for, but for what the switches say.
+    pub fn new(world: Arc<World>, switches: Switches) -> Self {
+        let effects = switches.simulated_in(&world);
         let scene = &world.scene;
         let facet = |corners: &[u32]| {
             let corners: Vec<Vec3> = corners.iter().map(|&corner| scene.positions[corner as usize]).collect();
@@ -53,9 +73,11 @@ impl Transport {
             Facet { normal: vector_area(&precise).normalize_or_zero().as_vec3a(), origin: corners[0].into() }
         };
         let facets: Vec<Facet> = scene.polygons.iter().map(|polygon| facet(polygon.corners())).collect();
-        let emitters = Emitters::new(&world, |polygon| facets[polygon].normal);
+        let looks: Vec<_> = scene.materials.iter().map(|material| MaterialLook::new(material, effects)).collect();
+        let emission = |polygon: usize| looks[scene.polygons[polygon].material as usize].emission;
+        let emitters = Emitters::new(&world, |polygon| (facets[polygon].normal, emission(polygon)));
         let has_glass = scene.materials.iter().any(Material::is_glass);
-        let mut transport = Self { facets, emitters, has_glass, world };
+        let mut transport = Self { effects, looks, facets, emitters, has_glass, world };
         let mut emitters = std::mem::take(&mut transport.emitters);
         emitters.place_in_media(|point| transport.media_at(point));
         Self { emitters, ..transport }
@@ -89,16 +111,35 @@ impl Transport {
         &self.world.scene.materials[surface.material as usize]
     }
 
+    /// Which shares of the light that arrives at surfaces of a material go where.
+    pub fn lobes(&self, material: u32) -> &Lobes {
+        &self.looks[material as usize].lobes
+    }
+
+    /// Effects that a surface would have, if they were simulated.
+    pub fn skipped(&self, surface: &Surface) -> Effects {
+        self.looks[surface.material as usize].skipped
+    }
+
     /// What a surface does with light that arrives from, or leaves to, this unit direction, which points away from it.
     pub fn bsdf(&self, surface: &Surface, towards: Vec3A, media: &Media) -> Bsdf {
-        let lobes = self.material(surface).lobes();
+        let bsdf = self.bsdf_of(self.lobes(surface.material), surface, towards, media);
+        if self.effects.contains(Effect::SpecularReflection) { bsdf } else { bsdf.without_reflection() }
+    }
+
+    /// The same with the lobes of effects that are not simulated, for those who tell them apart by [`Sample::effect`].
+    pub fn whole_bsdf(&self, surface: &Surface, towards: Vec3A, media: &Media) -> Bsdf {
+        self.bsdf_of(&self.looks[surface.material as usize].whole, surface, towards, media)
+    }
+
+    fn bsdf_of(&self, lobes: &Lobes, surface: &Surface, towards: Vec3A, media: &Media) -> Bsdf {
         let index = if lobes.glass > 0.0 { media.index_across(surface, &self.world.scene.materials) } else { 1.0 };
-        Bsdf::new(&lobes, surface, towards, index)
+        Bsdf::new(lobes, surface, towards, index)
     }
 
     /// The media behind a surface, for light that goes through it.
     pub fn media_behind(&self, surface: &Surface, media: Media) -> Media {
-        if self.material(surface).lobes().glass > 0.0 { media.across(surface) } else { media }
+        if self.lobes(surface.material).glass > 0.0 { media.across(surface) } else { media }
     }
 
     /// The glass that a point is in: of each body, a ray that goes away from the point meets more backs than fronts.
@@ -123,7 +164,7 @@ impl Transport {
 
     /// Radiance that a surface itself sends, W/(m²·sr). Emitters shine from their front.
     pub fn emission(&self, surface: &Surface) -> Rgb {
-        if surface.is_front { self.material(surface).emission } else { Rgb::ZERO }
+        if surface.is_front { self.looks[surface.material as usize].emission } else { Rgb::ZERO }
     }
 
     /// The ray that leaves a surface in a unit direction, on whichever side that lies.
@@ -132,9 +173,21 @@ impl Transport {
         Ray { origin: self.world.tracer.lift(surface.point, side), direction }
     }
 
-    /// Whether nothing stands between a surface, on the side that was met, and a point that is lifted off its own.
+    /// Whether nothing stands between a surface, on the side that was met, and a point that is lifted off its own: by a ray.
     pub fn sees(&self, surface: &Surface, point: Vec3A) -> bool {
         self.world.tracer.is_visible(self.world.tracer.lift(surface.point, surface.facing), point)
+    }
+}
+
+impl MaterialLook {
+    fn new(material: &Material, effects: Effects) -> Self {
+        let all = material.lobes();
+        Self {
+            lobes: filter::without(&all, effects),
+            whole: filter::without(&all, effects.and(filter::SPECULAR)),
+            emission: colour(material.emission, effects),
+            skipped: filter::effects_of(&all).but(effects),
+        }
     }
 }
 

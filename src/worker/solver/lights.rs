@@ -1,6 +1,7 @@
 //! Radiosity and photons: started, stepped and told of. Each has a run and a clock of its own, whichever is on show.
 
 use super::{Light, Part, Solver};
+use crate::effects::plan;
 use crate::errors::with_causes;
 use crate::methods::Step;
 use crate::solution::{CameraView, PhotonSolution, Solution};
@@ -66,6 +67,7 @@ impl<W: Workshop> Solver<W> {
             // Should the method panic before its first step, the world on show stays, and its light with it.
             let method = self.workshop.radiosity(&world, &settings)?;
             self.radiosity.begin(Run::of(method));
+            self.snapshot.plan = Some(Arc::new(plan(&world)));
             self.snapshot.world = Some(world);
         }
         // What is picked is seen by another method now, or is gone with its world.

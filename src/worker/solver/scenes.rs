@@ -1,9 +1,10 @@
 //! Scenes and settings: another of either begins anew what depends on it, and nothing else.
 
 use super::{Part, Solver};
+use crate::effects::Switches;
 use crate::errors::with_causes;
 use crate::mesh::MeshSettings;
-use crate::methods::{ImageSettings, PhotonSettings, Settings};
+use crate::methods::{ImageSettings, PhotonSettings, Settings, repertoire};
 use crate::scene::Scene;
 use crate::solution::CameraView;
 use crate::worker::going::Going;
@@ -38,15 +39,16 @@ impl<W: Workshop> Solver<W> {
     pub(super) fn load(&mut self, name: &str, open: impl FnOnce() -> Result<Scene, String>) {
         self.loading = Some(name.to_owned());
         self.publish();
-        let old_mesh = self.snapshot.settings.mesh;
+        let old = self.snapshot.settings;
         if self.snapshot.world.is_some() {
-            // A size in metres that suits one scene may be far too fine for another.
-            self.snapshot.settings.mesh = MeshSettings { element_size: None, ..old_mesh };
+            // A size in metres that suits one scene may be far too fine for another, and each calls for effects of its own.
+            let mesh = MeshSettings { element_size: None, ..old.mesh };
+            self.snapshot.settings = Settings { mesh, effects: Switches::default(), ..old };
         }
         let built = open().map_err(NoWorld::Failed).and_then(|scene| self.build(scene));
         let old_history = std::mem::take(&mut self.history);
         if !self.take_over(built) {
-            self.snapshot.settings.mesh = old_mesh;
+            self.snapshot.settings = old;
             self.history = old_history;
         }
         self.loading = None;
@@ -75,8 +77,8 @@ impl<W: Workshop> Solver<W> {
             }
             self.configure_pictures(&old);
             if let Err(refused) = self.configure_radiosity(world) {
-                let Settings { photons, image, occlusion, .. } = self.snapshot.settings;
-                self.snapshot.settings = Settings { photons, image, occlusion, ..old };
+                let Settings { photons, image, occlusion, effects, .. } = self.snapshot.settings;
+                self.snapshot.settings = Settings { photons, image, occlusion, effects, ..old };
                 refusal = Some(refused);
             }
             self.snapshot.error = refusal.map(|refused| with_causes(&refused));
@@ -113,12 +115,16 @@ impl<W: Workshop> Solver<W> {
 
     /// Pictures go on where they only get more samples, or fewer. The same photons may be read off in another way.
     fn configure_pictures(&mut self, old: &Settings) {
-        let Settings { image, seed, photons, occlusion, .. } = self.snapshot.settings;
+        let Settings { image, seed, photons, occlusion, effects, form_factor, .. } = self.snapshot.settings;
         if occlusion != old.occlusion {
             self.easel.forget(CameraView::is_occluded);
         }
         if (PhotonSettings { passes: old.photons.passes, ..photons }) != old.photons {
             self.easel.forget(CameraView::needs_photons);
+        }
+        if effects != old.effects {
+            let switches = |switches: Switches, view| switches.among(repertoire::of_view(view, form_factor));
+            self.easel.forget(|view| switches(effects, view) != switches(old.effects, view));
         }
         if seed != old.seed || (ImageSettings { samples: old.image.samples, ..image }) != old.image {
             self.easel.clear();

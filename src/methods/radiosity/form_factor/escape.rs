@@ -7,14 +7,13 @@ use crate::tracer::Ray;
 use rayon::prelude::*;
 
 /// Rays of one shot. They are stratified: the shares are good to about half a percent.
-const RAYS: u32 = 1024;
+pub const RAYS: u32 = 1024;
 /// Marks this use of (seed, pass) among the others.
 const PASS: u64 = 0x6573_6361_7065;
 
-/// The share of the cosine-distributed rays from the shooter that meet nothing, in [0, 1], and how many rays there were.
-/// Rays that meet a side which light cannot reach start where something stands on the patch and covers it: they do not
-/// count.
-pub fn share(shot: &Shot) -> (f64, u64) {
+/// The share of the cosine-distributed rays from the shooter that meet nothing, in [0, 1]. Those that meet a side which
+/// light cannot reach start where something stands on the patch and covers it: they do not count.
+pub fn share(shot: &Shot) -> f64 {
     let (world, shooter) = (shot.world, shot.shooter());
     let seed = hash(shot.seed, shot.pass, PASS) as u32;
     let origins = shooter.region().sampler(world.tracer.offset() * shooter.normal);
@@ -27,5 +26,5 @@ pub fn share(shot: &Shot) -> (f64, u64) {
         }
     };
     let [escaped, counted] = (0..RAYS).into_par_iter().map(count).reduce(|| [0; 2], |a, b| [a[0] + b[0], a[1] + b[1]]);
-    (f64::from(escaped) / f64::from(counted.max(1)), u64::from(RAYS))
+    f64::from(escaped) / f64::from(counted.max(1))
 }

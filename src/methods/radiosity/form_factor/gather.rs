@@ -3,6 +3,7 @@
 use super::polygon::{Kernel, Shooter};
 use super::visibility::{Rays, Sightline};
 use super::{Shot, clamped, plane_tolerance};
+use crate::effects::Effect;
 use crate::math::random::hash;
 use crate::mesh::{Mesh, Patch};
 use crate::solution::Counters;
@@ -60,14 +61,19 @@ impl<'a> Sight<'a> {
         let (bounded, is_cut) = clamped(unoccluded);
         work.form_factors += 1;
         work.clamped += u64::from(is_cut);
-        // Where nothing can stand between two points, all that face each other see each other.
-        if bounded == 0.0 || !self.shot.world.has_occluders {
+        if bounded == 0.0 {
+            return 0.0;
+        }
+        if !self.shot.effects.contains(Effect::Shadows) {
+            // All that face each other see each other.
+            work.bill.save(Effect::Shadows, self.sightline.rays_to(bounded).into());
             return bounded;
         }
         let shift = hash(self.shot.seed, self.shot.pass, index as u64);
         let (visible, rays) = self.sightline.visible_share(element, patch.normal, bounded, shift);
         work.shadow_rays += u64::from(rays);
         work.rays += u64::from(rays);
+        work.bill.spend(Effect::Shadows, rays.into());
         bounded * visible
     }
 }

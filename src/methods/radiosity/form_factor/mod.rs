@@ -14,6 +14,7 @@ mod rays;
 mod visibility;
 
 use crate::cancel::Cancel;
+use crate::effects::{Effect, Effects};
 use crate::mesh::{Mesh, Patch};
 use crate::methods::{FormFactorMethod, Settings};
 use crate::solution::{Counters, Zero};
@@ -32,6 +33,8 @@ pub struct Shot<'a> {
     pub relative_radiosity: f64,
     /// Share of the emitted flux that it shoots: light rays follow it.
     pub flux_share: f64,
+    /// Those that are simulated.
+    pub effects: Effects,
     pub seed: u64,
     /// Tells shots of one run apart.
     pub pass: u64,
@@ -74,23 +77,33 @@ impl FormFactors {
     /// Fills `form_factors`, one an element, with F from each element to the shooter, in [0, 1]. If cancelled, some keep
     /// their old values.
     pub fn toward(&mut self, shot: &Shot, form_factors: &mut [f64]) -> Outcome {
-        match self.settings.form_factor {
+        let outcome = match self.settings.form_factor {
             FormFactorMethod::Centroid => self.estimate(shot, Kernel::Centroid, form_factors),
             FormFactorMethod::Disc => self.estimate(shot, Kernel::Disc, form_factors),
             FormFactorMethod::Polygon => self.estimate(shot, Kernel::Polygon, form_factors),
             FormFactorMethod::Rays => self.light_rays.shoot(shot, self.settings.light_rays, form_factors),
             FormFactorMethod::Hemicube => self.hemicubes.look(shot, self.settings.shadow_rays, form_factors),
-        }
+        };
+        // Whoever looks for no way out finds none.
+        if shot.effects.contains(Effect::Escape) { outcome } else { Outcome { escaping: 0.0, ..outcome } }
     }
 
     /// A formula, times the share of shadow rays that arrive.
     fn estimate(&self, shot: &Shot, kernel: Kernel, form_factors: &mut [f64]) -> Outcome {
         let sight = Sight::new(shot, kernel, self.settings.shadow_rays);
         let mut counters = self.receivers.gather(&sight, form_factors);
-        let (escaping, escape_rays) = escape::share(shot);
-        counters.escape_rays += escape_rays;
-        counters.rays += escape_rays;
-        Outcome { escaping, counters }
+        if !shot.effects.contains(Effect::Escape) {
+            counters.bill.save(Effect::Escape, escape::RAYS.into());
+            return Outcome { escaping: 0.0, counters };
+        }
+        if counters.form_factors == 0 {
+            // Nothing faces the shooter.
+            return Outcome { escaping: 1.0, counters };
+        }
+        counters.escape_rays += u64::from(escape::RAYS);
+        counters.rays += u64::from(escape::RAYS);
+        counters.bill.spend(Effect::Escape, escape::RAYS.into());
+        Outcome { escaping: escape::share(shot), counters }
     }
 }
 

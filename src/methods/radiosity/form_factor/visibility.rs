@@ -43,6 +43,11 @@ impl<'a> Sightline<'a> {
         Self { world, shooter: shooter.region().sampler(lift), shooter_normal: shooter.normal, rays }
     }
 
+    /// How many rays go to a receiver with this form factor, at most.
+    pub fn rays_to(&self, form_factor: f64) -> u32 {
+        self.rays.to(form_factor)
+    }
+
     /// Share of point pairs of element and shooter that see each other, among those that face each other, and the
     /// number of rays traced. `form_factor` is what it would be with nothing between them. `shift` moves the pattern of
     /// points, so that neighbours do not err alike.

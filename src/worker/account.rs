@@ -1,0 +1,43 @@
+//! What became of each effect in what is on show.
+
+use super::Subject;
+use crate::effects::{Bill, Effect, Effects};
+use crate::methods::{Settings, radiosity, repertoire};
+use crate::world::World;
+
+/// An effect that could have been left out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Entry {
+    pub effect: Effect,
+    pub is_simulated: bool,
+    /// Rays that were traced for it alone.
+    pub spent: u64,
+    /// Rays that were not traced, since it was skipped: those of which it is known that they would have been.
+    pub saved: u64,
+}
+
+impl Subject {
+    /// Effects that it tells apart, so that it can leave them out.
+    pub fn repertoire(self, settings: &Settings) -> Effects {
+        match self {
+            Self::Radiosity => repertoire::of_radiosity(settings.form_factor),
+            Self::Photons => repertoire::of_photons(),
+            Self::Camera(view) => repertoire::of_view(view, settings.form_factor),
+        }
+    }
+
+    /// What became of each effect that it tells apart, by a bill of all that it took.
+    pub fn account(self, world: &World, settings: &Settings, bill: &Bill) -> Vec<Entry> {
+        let simulated = match self {
+            Self::Radiosity => radiosity::simulated(world, settings),
+            Self::Photons | Self::Camera(_) => settings.effects.simulated_in(world),
+        };
+        let entry = |effect| Entry {
+            effect,
+            is_simulated: simulated.contains(effect),
+            spent: bill.spent(effect),
+            saved: bill.saved(effect),
+        };
+        self.repertoire(settings).iter().map(entry).collect()
+    }
+}
