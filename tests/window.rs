@@ -3,6 +3,8 @@
 
 #[path = "window/crowds.rs"]
 mod crowds;
+#[path = "window/effects.rs"]
+mod effects;
 #[path = "window/keyboard.rs"]
 mod keyboard;
 #[path = "window/looking.rs"]

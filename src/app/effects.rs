@@ -17,6 +17,8 @@ pub struct EffectFacts<'a> {
     /// All rays of the view and of its light, and the time that these took.
     pub rays: u64,
     pub elapsed: Duration,
+    /// What a ray takes at least.
+    pub seconds_per_ray: f64,
 }
 
 impl<'a> EffectFacts<'a> {
@@ -47,7 +49,8 @@ impl<'a> EffectFacts<'a> {
         if let Some(picture) = image(look.view, snapshot) {
             add(picture.rays, picture.elapsed, &picture.bill);
         }
-        Some(Self { plan, entries: subject.account(world, settings, &bill), rays, elapsed })
+        let entries = subject.account(world, settings, &bill);
+        Some(Self { plan, entries, rays, elapsed, seconds_per_ray: snapshot.seconds_per_ray })
     }
 
     /// Effects that the scene calls for and the view leaves out.
@@ -61,8 +64,13 @@ impl<'a> EffectFacts<'a> {
         self.entries.iter().find(|entry| entry.effect == effect)
     }
 
-    /// What so many rays took, if all rays took as long.
-    pub fn seconds(&self, rays: u64) -> f64 {
+    /// What so many of its rays took, if all of them took as long and nothing else took time.
+    pub fn seconds_spent(&self, rays: u64) -> f64 {
         if self.rays == 0 { 0.0 } else { self.elapsed.as_secs_f64() * rays as f64 / self.rays as f64 }
+    }
+
+    /// What so many rays would have taken at least.
+    pub fn seconds_saved(&self, rays: u64) -> f64 {
+        rays as f64 * self.seconds_per_ray
     }
 }

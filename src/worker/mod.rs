@@ -11,6 +11,7 @@ mod history;
 mod mailbox;
 mod methods;
 mod pool;
+mod ray_price;
 mod run;
 mod solver;
 mod workshop;
@@ -39,6 +40,8 @@ pub struct Snapshot {
     pub world: Option<Arc<World>>,
     /// Which effects of light `world` calls for.
     pub plan: Option<Arc<Plan>>,
+    /// What a ray takes in `world` at least.
+    pub seconds_per_ray: f64,
     /// Belongs to `world`, element by element.
     pub solution: Option<Arc<Solution>>,
     /// What the picked patch sees; belongs to `world`.

@@ -27,6 +27,12 @@ fn a_wrong_command_line_is_exit_code_2() {
         ("render furnace -o picture.png --view sideways", "sideways"),
         ("render furnace -o picture.png --eye 1,2", "three numbers"),
         ("render furnace -o picture.png --fov 180", "170"),
+        ("solve furnace --effects some", "no set of effects is called `some`"),
+        ("solve furnace --without sound", "no effect is called `sound`"),
+        ("solve furnace --without caustics", "can leave out direct-light, shadows, interreflection, colour, escape"),
+        ("solve furnace --form-factor hemicube --without shadows", "--without shadows is not for --method radiosity"),
+        ("solve furnace --method photon-map --without escape", "--without escape is not for --method photon-map"),
+        ("render furnace -o picture.png --view ambient-occlusion --without colour", "can leave out nothing"),
     ] {
         assert_contains(&refusal(&folder, arguments, 2), &[reason]);
     }

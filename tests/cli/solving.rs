@@ -126,3 +126,35 @@ fn the_same_seed_gives_the_same_result_on_any_number_of_threads() {
     assert_eq!(table.lines().count(), 5);
     assert_eq!(table, on("2", &probe));
 }
+
+fn names(list: &Value) -> Vec<&str> {
+    list.as_array().expect("a list").iter().filter_map(|entry| entry["effect"].as_str()).collect()
+}
+
+#[test]
+fn a_report_says_what_was_skipped_and_why() {
+    let folder = folder();
+    let planned = json(&folder, "solve furnace --element 0.25 --steps 6 --json");
+    assert_eq!(names(&planned["simulated"]), ["direct-light", "interreflection"]);
+    assert_eq!(names(&planned["skipped"]), ["shadows", "colour", "escape"]);
+    let shadows = &planned["skipped"][0];
+    assert_eq!(shadows["reason"], "Nothing stands before the planes of the 6 polygons that light reaches.");
+    let all = json(&folder, "solve furnace --element 0.25 --steps 6 --effects all --json");
+    assert_eq!(names(&all["skipped"]), [""; 0]);
+    assert_eq!(number(&shadows["rays_saved"]), number(&all["counters"]["shadow_rays"]));
+    assert_eq!(number(&planned["skipped"][2]["rays_saved"]), number(&all["counters"]["escape_rays"]));
+    for field in ["energy", "steps", "closure"] {
+        assert_eq!(planned[field], all[field], "{field}");
+    }
+    let without = json(&folder, "solve cornell-box --steps 3 --without shadows --without colour --json");
+    assert_eq!(names(&without["skipped"]), ["shadows", "colour"]);
+    assert_eq!(
+        without["skipped"][0]["reason"],
+        "It was left out. Light would shine through whatever stands in its way."
+    );
+    assert_eq!(number(&without["counters"]["shadow_rays"]), 0.0);
+    let photons = json(&folder, "solve cornell-box --method photon-map --photons 1000 --caustic-photons 500 --json");
+    let caustics = photons["skipped"].as_array().expect("a list").iter().find(|entry| entry["effect"] == "caustics");
+    assert_eq!(number(&caustics.expect("none are needed")["rays_saved"]), 500.0);
+    assert_eq!(number(&photons["counters"]["caustic_emitted"]), 0.0);
+}

@@ -144,6 +144,7 @@ impl Stage {
                 entries: self.effects.clone(),
                 rays: 31_000_000,
                 elapsed: Duration::from_secs(3),
+                seconds_per_ray: 5e-8,
             }),
             solution: self.solution.as_ref(),
             photons: self.photons.as_ref(),

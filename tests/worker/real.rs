@@ -4,6 +4,7 @@ use crate::{load, median, steps, wait_for};
 use glam::Vec3;
 use lightwell::camera::Camera;
 use lightwell::choice::Choice;
+use lightwell::effects::{Effect, Effects, Switches};
 use lightwell::methods::{ImageSettings, PhotonSettings, Settings};
 use lightwell::solution::{CameraImage, CameraView};
 use lightwell::worker::{Command, Phase, Sight, Snapshot, Spot, Subject, Worker};
@@ -129,4 +130,31 @@ fn more_photons_than_there_is_memory_are_refused() {
         }
         None => println!("this machine has the memory"),
     }
+}
+
+#[test]
+fn a_switch_begins_anew_what_it_concerns_and_nothing_else() {
+    let (worker, lit) = lit();
+    assert!(lit.plan.is_some() && lit.seconds_per_ray > 0.0);
+    for (effect, keeps_radiosity, keeps_photons) in [
+        (Effect::AmbientLight, true, true),
+        (Effect::Shadows, false, true),
+        (Effect::DirectLight, false, true),
+        (Effect::Interreflection, false, false),
+        (Effect::Caustics, true, true),
+    ] {
+        let (worker, before) = self::lit();
+        let effects = Switches { off: Effects::of(&[effect]), ..Switches::default() };
+        worker.send(Command::Configure(Settings { effects, ..before.settings }));
+        let now = wait_for(&worker, "configured", |now| now.settings.effects == effects);
+        let photons = now.photons.as_ref().zip(before.photons.as_ref());
+        let same_photons = photons.is_some_and(|(now, before)| Arc::ptr_eq(now, before));
+        assert_eq!((steps(&now) == 30, same_photons), (keeps_radiosity, keeps_photons), "{effect:?}");
+    }
+    // Another scene calls for other effects.
+    let effects = Switches { off: Effects::of(&[Effect::Shadows]), ..Switches::default() };
+    worker.send(Command::Configure(Settings { effects, ..lit.settings }));
+    wait_for(&worker, "configured", |now| now.settings.effects == effects);
+    worker.send(Command::Load("furnace".to_owned()));
+    wait_for(&worker, "loaded", |now| now.settings.effects == Switches::default());
 }

@@ -59,13 +59,15 @@ fn row(ui: &mut Ui, settings: Settings, facts: &EffectFacts, verdict: &Verdict, 
 /// What an effect cost, or skipping it saved.
 fn price(facts: &EffectFacts, verdict: &Verdict, entry: Option<&Entry>) -> String {
     let need = if verdict.is_needed { "needed" } else { "not needed" };
-    let told = |word: &str, rays: u64| {
-        let time = format::short(facts.seconds(rays), "s");
-        format!("{word}{} rays, {time}", format::short(rays as f64, ""))
-    };
+    let rays = |rays: u64| format::short(rays as f64, "");
+    let time = |seconds: f64| format::short(seconds, "s");
     match entry {
-        Some(Entry { is_simulated: true, spent, .. }) if *spent > 0 => told("", *spent),
-        Some(Entry { is_simulated: false, saved, .. }) if *saved > 0 => told("saved ", *saved),
+        Some(&Entry { is_simulated: true, spent, .. }) if spent > 0 => {
+            format!("{} rays, {}", rays(spent), time(facts.seconds_spent(spent)))
+        }
+        Some(&Entry { is_simulated: false, saved, .. }) if saved > 0 => {
+            format!("saved {} rays, ≥ {}", rays(saved), time(facts.seconds_saved(saved)))
+        }
         _ => need.to_owned(),
     }
 }

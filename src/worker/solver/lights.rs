@@ -6,6 +6,7 @@ use crate::errors::with_causes;
 use crate::methods::Step;
 use crate::solution::{CameraView, PhotonSolution, Solution};
 use crate::worker::going::Going;
+use crate::worker::ray_price::seconds_per_ray;
 use crate::worker::run::{PhotonRun, Run};
 use crate::worker::workshop::Workshop;
 use crate::worker::{LightKind, Refused};
@@ -68,6 +69,7 @@ impl<W: Workshop> Solver<W> {
             let method = self.workshop.radiosity(&world, &settings)?;
             self.radiosity.begin(Run::of(method));
             self.snapshot.plan = Some(Arc::new(plan(&world)));
+            self.snapshot.seconds_per_ray = seconds_per_ray(&world);
             self.snapshot.world = Some(world);
         }
         // What is picked is seen by another method now, or is gone with its world.
