@@ -2,13 +2,15 @@
 //! 2002). It is a guess at indirect light, and needs no emitter.
 
 mod falloff;
+mod pattern;
 
 pub use falloff::{Falloff, OcclusionSettings, Range};
+pub use pattern::Pattern;
 
 use crate::math::warp::{cosine_hemisphere, frame};
 use crate::methods::transport::{Surface, Transport};
 use crate::tracer::Ray;
-use glam::{Vec2, Vec3A};
+use glam::{Mat3A, Vec2, Vec3A};
 use std::sync::Arc;
 
 /// Asks of points how much ambient light arrives there.
@@ -43,27 +45,39 @@ impl AmbientOcclusion {
     /// The mean over rays that are distributed by their cosine with the shading normal; `square` gives points of [0, 1)²,
     /// which should be stratified. What a shading normal tilts below the surface arrives nowhere, and counts as dark.
     pub fn visibility(&self, surface: &Surface, square: impl Fn(u32) -> Vec2) -> Visibility {
-        let around = frame(surface.normal);
+        let directions = (0..self.rays).map(|i| cosine_hemisphere(square(i)));
+        self.mean(surface, frame(surface.normal), directions)
+    }
+
+    /// The same by the directions of a pattern that was made for as many rays, for question number `time` of `asker`.
+    pub fn visibility_by(&self, pattern: &Pattern, surface: &Surface, asker: u64, time: u64) -> Visibility {
+        let (directions, turn) = pattern.block(asker, time);
+        self.mean(surface, frame(surface.normal) * turn, directions.iter().copied())
+    }
+
+    /// Over directions about z, which `around` turns to the surface.
+    fn mean(&self, surface: &Surface, around: Mat3A, directions: impl Iterator<Item = Vec3A>) -> Visibility {
+        let tracer = &self.transport.world.tracer;
+        let reach = self.falloff.reach(self.range);
+        // All rays that count start on the side of the surface that was met.
+        let origin = tracer.lift(surface.point, surface.facing);
+        let is_all_or_nothing = self.falloff.is_all_or_nothing(self.range);
+        let free_share = |ray: &Ray| {
+            if is_all_or_nothing {
+                return if tracer.is_free(ray, reach) { 1.0 } else { 0.0 };
+            }
+            let hit = tracer.closest_within(ray, reach);
+            hit.map_or(1.0, |hit| 1.0 - self.falloff.occlusion(hit.distance, self.range))
+        };
         let (mut sum, mut bent_normal) = (0.0, Vec3A::ZERO);
-        for i in 0..self.rays {
-            let direction = around * cosine_hemisphere(square(i));
+        for direction in directions {
+            let direction = around * direction;
             if direction.dot(surface.facing) > 0.0 {
-                let free = self.free_share(&self.transport.leave(surface, direction));
+                let free = free_share(&Ray { origin, direction });
                 sum += free;
                 bent_normal += free * direction;
             }
         }
         Visibility { share: sum / self.rays.max(1) as f32, bent_normal }
-    }
-
-    /// The share of the ambient light of its direction that arrives along a ray.
-    fn free_share(&self, ray: &Ray) -> f32 {
-        let tracer = &self.transport.world.tracer;
-        let reach = self.falloff.reach(self.range);
-        if self.falloff.is_all_or_nothing(self.range) {
-            return if tracer.is_free(ray, reach) { 1.0 } else { 0.0 };
-        }
-        let hit = tracer.closest_within(ray, reach);
-        hit.map_or(1.0, |hit| 1.0 - self.falloff.occlusion(hit.distance, self.range))
     }
 }

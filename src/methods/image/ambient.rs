@@ -2,12 +2,11 @@
 //! and both together (Landis 2002).
 
 use super::direct;
-use super::draws::Use;
 use super::eye_path::{Look, Sight, Tools};
 use crate::effects::Effect;
 use crate::math::rgb::Rgb;
 use crate::methods::Settings;
-use crate::methods::ambient_occlusion::AmbientOcclusion;
+use crate::methods::ambient_occlusion::{AmbientOcclusion, Pattern};
 use crate::methods::radiosity::mean_indirect_irradiance;
 use crate::methods::transport::{Bsdf, Media, Surface, Transport};
 use crate::solution::Scattering;
@@ -31,6 +30,7 @@ pub struct AmbientLook {
     transport: Arc<Transport>,
     parts: Parts,
     occlusion: AmbientOcclusion,
+    pattern: Pattern,
     light_rays: u32,
     /// E of the ambient light where nothing is occluded, W/m²; 0 where it is no part of the picture.
     ambient: Rgb,
@@ -49,6 +49,7 @@ impl AmbientLook {
         };
         Self {
             occlusion: AmbientOcclusion::new(transport.clone(), &settings.occlusion),
+            pattern: Pattern::new(settings.occlusion.rays, settings.seed),
             light_rays: if is_dark { 0 } else { settings.image.light_rays },
             transport,
             parts,
@@ -67,7 +68,7 @@ impl AmbientLook {
             }
             Parts::DiffuseAmbient | Parts::Occlusion => {
                 tools.cost.spend(Effect::AmbientLight, rays);
-                self.occlusion.visibility(surface, |i| tools.draws.spread(Use::Ambient, i, rays)).share
+                self.occlusion.visibility_by(&self.pattern, surface, tools.draws.pixel(), tools.draws.sample()).share
             }
         }
     }

@@ -15,8 +15,6 @@ pub enum Use {
     Light,
     /// The direction of a diffuse ray.
     Gather,
-    /// The direction in which ambient light may come.
-    Ambient,
 }
 
 /// Random numbers from (seed, pixel, sample) alone. Points of each [`Use`] are low-discrepancy over all samples of a pixel,
@@ -32,6 +30,15 @@ impl Draws {
     pub fn new(seed: u64, pixel: u64, sample: u32) -> Self {
         let pixel = hash(seed, PASS, pixel);
         Self { pixel, sample: sample.into(), stream: Stream::new(pixel, PASS, sample.into()) }
+    }
+
+    /// A random number of the pixel.
+    pub fn pixel(&self) -> u64 {
+        self.pixel
+    }
+
+    pub fn sample(&self) -> u64 {
+        self.sample
     }
 
     /// Point `i` of `count` that each sample takes for this use, in [0, 1)².
