@@ -110,6 +110,30 @@ pub const BUILTINS: &[Builtin] = &[
         obj: include_str!("../../assets/scenes/glossy-floor.obj"),
         mtl: include_str!("../../assets/scenes/glossy-floor.mtl"),
     },
+    Builtin {
+        name: "ao-study",
+        description: "the corner of a room without a lamp: a stair, a niche, balls, blocks and gaps of 5 to 40 mm, for ambient occlusion",
+        viewpoint: Some(Viewpoint {
+            eye: Vec3::new(3.5, 2.3, 5.4),
+            target: Vec3::new(1.65, 0.58, 1.2),
+            up: Vec3::Y,
+            vertical_fov: 45.0,
+        }),
+        obj: include_str!("../../assets/scenes/ao-study.obj"),
+        mtl: include_str!("../../assets/scenes/ao-study.mtl"),
+    },
+    Builtin {
+        name: "machine-hall",
+        description: "a hall without a lamp, full of pumps, vessels, pipes, bolts and gratings under a crane, for ambient occlusion",
+        viewpoint: Some(Viewpoint {
+            eye: Vec3::new(-1.2, 3.4, -0.5),
+            target: Vec3::new(1.0, 2.2, -12.0),
+            up: Vec3::Y,
+            vertical_fov: 60.0,
+        }),
+        obj: include_str!("../../assets/scenes/machine-hall.obj"),
+        mtl: include_str!("../../assets/scenes/machine-hall.mtl"),
+    },
 ];
 
 /// The measured camera: 35 mm focal length and a film of 25 mm, so a vertical angle of 2 atan(12.5 / 35).

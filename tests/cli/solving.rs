@@ -10,7 +10,8 @@ fn the_built_in_scenes_are_listed_with_a_line_each() {
     let names: Vec<&str> = text.lines().filter_map(|line| line.split_whitespace().next()).collect();
     let boxes = ["cornell-box", "empty-box", "furnace", "two-rooms", "gallery"];
     let optics = ["cornell-spheres", "caustic-ring", "glass-block", "glossy-floor"];
-    assert_eq!(names, [&boxes[..], &optics].concat());
+    let dark = ["ao-study", "machine-hall"];
+    assert_eq!(names, [&boxes[..], &optics, &dark].concat());
     assert!(text.lines().all(|line| line.split_whitespace().count() > 3), "{text}");
     let listed = json(&folder, "scenes --json");
     let listed: Vec<&Value> = listed["scenes"].as_array().expect("a list").iter().collect();

@@ -47,6 +47,8 @@ fn built_in_scenes_call_for_what_is_in_them() {
         ("caustic-ring", with(&[SpecularReflection, Caustics, Escape])),
         ("glass-block", with(&[SpecularReflection, Transmission, Caustics, Escape])),
         ("glossy-floor", with(&[Gloss, Caustics])),
+        ("ao-study", vec![Colour, Escape, AmbientLight]),
+        ("machine-hall", vec![Colour, AmbientLight]),
     ] {
         assert_needed(name, &plan_of(builtin(name)), &expected);
     }
@@ -184,6 +186,8 @@ fn the_method_follows_from_the_effects() {
         ("cornell-box", Approach::Radiosity),
         ("glossy-floor", Approach::CausticMap),
         ("caustic-ring", Approach::CausticMap),
+        ("ao-study", Approach::AmbientOcclusion),
+        ("machine-hall", Approach::AmbientOcclusion),
     ] {
         assert_eq!(plan_of(builtin(name)).advice.approach, approach, "{name}");
     }
