@@ -122,3 +122,59 @@ impl Traits {
         self.is_mirror || self.is_glossy || self.is_glass || self.is_sheet
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::World;
+    use super::super::occluders;
+    use super::*;
+    use crate::cancel::Cancel;
+    use crate::mesh::MeshSettings;
+    use crate::scene::BUILTINS;
+    use std::f32::consts::{PI, TAU};
+    use std::fmt::Write;
+    use std::time::{Duration, Instant};
+
+    /// A ball of 300,000 triangles that glows.
+    fn ball() -> Scene {
+        const RINGS: u32 = 388;
+        let mut obj = String::from("mtllib ball.mtl\nusemtl glow\n");
+        for (ring, step) in (0..=RINGS).flat_map(|ring| (0..RINGS).map(move |step| (ring, step))) {
+            let (polar, azimuth) = (PI * ring as f32 / RINGS as f32, TAU * step as f32 / RINGS as f32);
+            let [x, y, z] = [polar.sin() * azimuth.cos(), polar.cos(), -polar.sin() * azimuth.sin()];
+            let _ = writeln!(obj, "v {x} {y} {z}");
+        }
+        let corner = |ring: u32, step: u32| 1 + ring * RINGS + step % RINGS;
+        for (ring, step) in (0..RINGS).flat_map(|ring| (0..RINGS).map(move |step| (ring, step))) {
+            let [a, b, c, d] = [(0, 0), (0, 1), (1, 1), (1, 0)].map(|(down, on)| corner(ring + down, step + on));
+            let _ = writeln!(obj, "f {a} {d} {c}\nf {a} {c} {b}");
+        }
+        Scene::from_text("ball", &obj, "newmtl glow\nKd 0.5 0.4 0.3\nKe 1 1 1\n").expect("a scene")
+    }
+
+    /// The shortest of some times: other programs only add to it.
+    fn price(world: &World) -> Duration {
+        let surfaces = Surfaces::new(&world.scene);
+        let tolerance = f64::from(world.tracer.offset());
+        let count = |_| {
+            let start = Instant::now();
+            let has_occluders = occluders::may_exist(&surfaces, &world.is_reached, tolerance);
+            let census =
+                Census::take(&world.scene, &surfaces, &world.is_reached, world.census.unseen_emitters, tolerance);
+            std::hint::black_box((has_occluders, census));
+            start.elapsed()
+        };
+        (0..7).map(count).min().expect("some times")
+    }
+
+    #[test]
+    fn counting_takes_less_than_a_hundredth_of_the_first_second() {
+        let scenes = BUILTINS.iter().map(|builtin| Scene::open(builtin.name).expect("a built-in scene"));
+        for scene in scenes.chain([ball()]) {
+            let world = World::build(scene, &MeshSettings::default(), &Cancel::default()).expect("a world");
+            let price = price(&world);
+            println!("{}: {} polygons counted in {price:?}", world.scene.name, world.scene.polygons.len());
+            assert!(price < Duration::from_millis(10), "{}: {price:?}", world.scene.name);
+        }
+    }
+}

@@ -8,21 +8,27 @@
 
 use super::planes::Plane;
 use super::surface::Surfaces;
+use std::collections::HashSet;
 
 /// Where there are more pairs of a plane and a corner than this, something is taken to stand somewhere: looking at all
-/// of them would take longer than a few hundredths of a second.
-const MOST_PAIRS: usize = 1 << 23;
+/// of them would take longer than a few thousandths of a second.
+const MOST_PAIRS: usize = 1 << 21;
 
 /// False if nothing crosses a line between two points of sides that light reaches by more than `tolerance`, m. True if
 /// something may: nothing is traced, so that it costs next to nothing.
 pub fn may_exist(surfaces: &Surfaces, is_reached: &[bool], tolerance: f64) -> bool {
-    let reached = is_reached.iter().enumerate().filter(|(_, is_reached)| **is_reached);
-    let mut planes: Vec<Plane> = reached.map(|(side, _)| Plane::new(surfaces, side)).collect();
+    let corners = surfaces.corners().count();
+    let reached = (0..is_reached.len()).filter(|&side| is_reached[side]);
     // A wall of many polygons has one plane.
-    planes.sort_by_cached_key(Plane::key);
-    planes.dedup();
-    if planes.len() * surfaces.corners().count() > MOST_PAIRS {
-        return true;
+    let (mut planes, mut known) = (Vec::new(), HashSet::new());
+    for side in reached {
+        let plane = Plane::new(surfaces, side);
+        if known.insert(plane.key()) {
+            planes.push(plane);
+        }
+        if planes.len() * corners > MOST_PAIRS {
+            return true;
+        }
     }
     let is_out_of_the_way = |polygon: usize| {
         let mut heights = planes.iter().map(|plane| {

@@ -11,8 +11,9 @@ use lightwell::cancel::Cancel;
 use lightwell::choice::Choice;
 use lightwell::effects::{Approach, Effect, Effects, Plan, plan};
 use lightwell::mesh::MeshSettings;
-use lightwell::scene::{Scene, Viewpoint};
+use lightwell::scene::{BUILTINS, Scene, Viewpoint};
 use lightwell::world::with_ceiling_light;
+use std::time::{Duration, Instant};
 
 fn plan_of(scene: Scene) -> Plan {
     plan(&world(scene))
@@ -201,4 +202,19 @@ fn a_world_cut_differently_has_the_same_plan() {
     let settings = MeshSettings { elements_per_patch_edge: 1, ..MeshSettings::default() };
     let remeshed = world.remeshed(&settings, &Cancel::default()).expect("a world");
     assert_eq!(plan(&remeshed), plan(&world));
+}
+
+#[test]
+fn a_plan_is_made_by_what_was_counted_before() {
+    for builtin in BUILTINS {
+        let world = world(Scene::open(builtin.name).expect("a built-in scene"));
+        let price = (0..5).map(|_| {
+            let start = Instant::now();
+            std::hint::black_box(plan(&world));
+            start.elapsed()
+        });
+        // A thousandth of the first second, and next to nothing of what the counting may take.
+        let price = price.min().expect("some times");
+        assert!(price < Duration::from_millis(1), "{}: {price:?}", builtin.name);
+    }
 }

@@ -8,8 +8,8 @@ use crate::scene::BUILTINS;
 use crate::worker::Phase;
 use egui::accesskit::Role;
 use egui::{
-    Align, Align2, Area, Button, Color32, Frame, Id, Layout, Order, PointerButton, Rect, Response, RichText, Sense,
-    Spinner, TextStyle, Ui, UiBuilder, WidgetInfo, vec2,
+    Align, Align2, Area, Button, Color32, Frame, Id, Layout, Order, PointerButton, Rect, Response, RichText,
+    ScrollArea, Sense, Spinner, TextStyle, Ui, UiBuilder, WidgetInfo, vec2,
 };
 
 /// Zoom for a wheel's notch, which egui reports as some 40 points.
@@ -74,12 +74,14 @@ fn invitation(ui: &mut Ui, rect: Rect, actions: &mut Vec<Action>) {
         }
         ui.add_space(4.0 * UNIT);
         ui.label(RichText::new("or begin with a built-in one").weak());
-        for builtin in BUILTINS {
-            let button = Button::new(builtin.name).min_size(vec2(60.0 * UNIT, 8.0 * UNIT));
-            if ui.add(button).on_hover_text(builtin.description).clicked() {
-                actions.push(Action::Open(builtin.name.to_owned()));
+        ScrollArea::vertical().show(ui, |ui| {
+            for builtin in BUILTINS {
+                let button = Button::new(builtin.name).min_size(vec2(60.0 * UNIT, 8.0 * UNIT));
+                if ui.add(button).on_hover_text(builtin.description).clicked() {
+                    actions.push(Action::Open(builtin.name.to_owned()));
+                }
             }
-        }
+        });
     });
 }
 
