@@ -116,7 +116,6 @@ fn main() {
         builtin("furnace"),
         builtin("cornell-box"),
         builtin("two-rooms"),
-        builtin("gallery"),
         builtin("glossy-floor"),
         builtin("caustic-ring"),
     ] {

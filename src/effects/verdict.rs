@@ -45,7 +45,7 @@ fn saves(effect: Effect) -> &'static str {
         Effect::Interreflection => {
             "All light after the first: reflected shots, photons that bounce, and gathering rays."
         }
-        Effect::Colour => "Two of three channels.",
+        Effect::Colour => "Next to nothing, since all three channels go with the same rays and form factors.",
         Effect::SpecularReflection => "All reflected rays, and the photons that are reflected as by a mirror.",
         Effect::Gloss => "All rays and photons that are spread over a lobe.",
         Effect::Transmission => "All rays and photons through surfaces.",

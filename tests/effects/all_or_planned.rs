@@ -76,11 +76,15 @@ fn radiosity_is_the_same_and_skips_work() {
 
 #[test]
 fn every_way_to_form_factors_and_every_solver_gives_the_same() {
-    for scene in [Quads::room("glow", "grey", "red").scene(), Quads::room("lamp", "grey", "red").block("grey").scene()]
-    {
-        let world = coarse(scene);
+    let rooms = [
+        Quads::room("glow", "grey", "red"),
+        Quads::room("glow", "grey", "grey"),
+        Quads::room("lamp", "grey", "red").block("grey"),
+    ];
+    for room in rooms {
+        let world = coarse(room.scene());
         for &form_factor in FormFactorMethod::ALL {
-            for &solver in &[Solver::Progressive, Solver::Jacobi] {
+            for &solver in Solver::ALL {
                 let with = |effects| {
                     let settings = Settings {
                         form_factor,
