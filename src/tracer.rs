@@ -9,7 +9,7 @@
 //! - The triangle test is watertight (Woop, Benthin, Wald 2013): triangles that share an edge leave no gap.
 
 use crate::math::bounds::Bounds;
-use glam::{Vec3, Vec3A};
+use glam::{Vec3, Vec3A, Vec3Swizzles};
 use obvhs::aabb::Aabb;
 use obvhs::cwbvh::CwBvh;
 use obvhs::cwbvh::builder::build_cwbvh;
@@ -65,7 +65,7 @@ impl Tracer {
         let center = if bounds.is_empty() { Vec3::ZERO } else { bounds.center() };
         let frame_from_world = frame_scale(bounds.extent().max_element() * 0.5);
         let to_frame = |corner: Vec3| ((corner - center) * frame_from_world).to_array();
-        let framed: Vec<Triangle> = triangles.iter().map(|(_, corners)| Triangle(corners.map(to_frame))).collect();
+        let framed: Vec<Triangle> = triangles.iter().map(|(_, corners)| Triangle::new(corners.map(to_frame))).collect();
         let bvh = build_cwbvh(&framed, BvhBuildParams::medium_build(), &mut Duration::default());
         Self {
             triangles: bvh.primitive_indices.iter().map(|&i| framed[i as usize]).collect(),
@@ -150,23 +150,29 @@ fn frame_ray(origin: Vec3A, direction: Vec3A, limit: f32) -> FrameRay {
     FrameRay::new(origin, direction + Vec3A::ZERO, 0.0, limit)
 }
 
-/// Three corners in frame coordinates.
+/// Three corners in frame coordinates: all their x, all their y and all their z, so that one instruction works on all three.
 #[derive(Clone, Copy, Debug)]
-struct Triangle([[f32; 3]; 3]);
+struct Triangle([Vec3A; 3]);
 
 impl Triangle {
+    fn new(corners: [[f32; 3]; 3]) -> Self {
+        let [a, b, c] = corners;
+        Self([0, 1, 2].map(|axis| Vec3A::new(a[axis], b[axis], c[axis])))
+    }
+
     /// Normal by winding, not of unit length.
     fn normal(&self) -> Vec3A {
-        let [a, b, c] = self.0.map(Vec3A::from_array);
-        (b - a).cross(c - a)
+        let [x, y, z] = self.0;
+        let corner = |i: usize| Vec3A::new(x[i], y[i], z[i]);
+        (corner(1) - corner(0)).cross(corner(2) - corner(0))
     }
 }
 
 impl Boundable for Triangle {
     fn aabb(&self) -> Aabb {
-        let [a, b, c] = self.0.map(Vec3A::from_array);
         let padding = Vec3A::splat(BOX_PADDING);
-        Aabb { min: a.min(b).min(c) - padding, max: a.max(b).max(c) + padding }
+        let [low, high] = [Vec3A::min_element, Vec3A::max_element].map(|of| Vec3A::from_array(self.0.map(of)));
+        Aabb { min: low - padding, max: high + padding }
     }
 }
 
@@ -187,34 +193,26 @@ impl Shear {
         Self { axes, factors: [direction[axes[0]] * scale, direction[axes[1]] * scale, scale] }
     }
 
-    /// A corner in the space where the ray starts at the origin and runs along z.
-    #[inline(always)]
-    fn apply(&self, corner: &[f32; 3], ray: &FrameRay) -> [f32; 3] {
-        let [x, y, z] = self.axes;
-        let depth = corner[z] - ray.origin[z];
-        let across = corner[x] - ray.origin[x] - self.factors[0] * depth;
-        let along = corner[y] - ray.origin[y] - self.factors[1] * depth;
-        [across, along, self.factors[2] * depth]
-    }
-
     /// Distance along the ray within its limits, or infinity. In the sheared plane a triangle is hit where its three
     /// edge functions agree in sign. Both triangles at an edge compute the same value for it, and a rounded difference
     /// of two products has the right sign or is 0; since 0 agrees with either sign, there is no gap, and the original's
     /// second try in double precision, which decides which of the two triangles is hit, is not needed.
     #[inline(always)]
     fn intersect(&self, triangle: &Triangle, ray: &FrameRay) -> f32 {
-        let [a, b, c] = &triangle.0;
-        let (a, b, c) = (self.apply(a, ray), self.apply(b, ray), self.apply(c, ray));
-        let u = c[0] * b[1] - c[1] * b[0];
-        let v = a[0] * c[1] - a[1] * c[0];
-        let w = b[0] * a[1] - b[1] * a[0];
-        let any_negative = u < 0.0 || v < 0.0 || w < 0.0;
-        let any_positive = u > 0.0 || v > 0.0 || w > 0.0;
-        let determinant = u + v + w;
+        // The corners in the space where the ray starts at the origin and runs along z.
+        let [x, y, z] = self.axes;
+        let depth = triangle.0[z] - Vec3A::splat(ray.origin[z]);
+        let across = triangle.0[x] - Vec3A::splat(ray.origin[x]) - self.factors[0] * depth;
+        let along = triangle.0[y] - Vec3A::splat(ray.origin[y]) - self.factors[1] * depth;
+        // Of the edges from the second corner to the third, from the third to the first, from the first to the second.
+        let edges = across.zxy() * along.yzx() - along.zxy() * across.yzx();
+        let any_negative = edges.cmplt(Vec3A::ZERO).any();
+        let any_positive = edges.cmpgt(Vec3A::ZERO).any();
+        let determinant = edges.element_sum();
         if (any_negative && any_positive) || determinant == 0.0 {
             return f32::INFINITY;
         }
-        let distance = (u * a[2] + v * b[2] + w * c[2]) / determinant;
+        let distance = self.factors[2] * edges.dot(depth) / determinant;
         if distance >= ray.tmin && distance <= ray.tmax { distance } else { f32::INFINITY }
     }
 }
