@@ -57,7 +57,7 @@ pub enum Command {
     Series(series::Options),
     /// Solve a scene and print where its light went
     Solve(solve::Options),
-    /// Solve a scene and print the irradiance at points
+    /// Solve a scene and print the irradiance, or the share of ambient light, at points
     Probe(probe::Options),
     /// Compute the form factor between two polygons by every method
     #[command(name = "formfactor")]
@@ -121,8 +121,8 @@ pub enum CliError {
     NoSuchBounce { kept: usize },
     #[error("there is nothing to draw yet: {0}")]
     Missing(&'static str),
-    #[error("no surface is at {},{},{}, seen from where its normal points, and photons land nowhere else", .point[0], .point[1], .point[2])]
-    InTheAir { point: [f32; 3] },
+    #[error("no surface is at {},{},{}, seen from where its normal points, and {reason}", .point[0], .point[1], .point[2])]
+    InTheAir { point: [f32; 3], reason: &'static str },
     #[error("cannot make the folder {path}")]
     Folder { path: PathBuf, source: std::io::Error },
     #[error("cannot print")]

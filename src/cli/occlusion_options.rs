@@ -9,7 +9,7 @@ use clap::Args;
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Ambient occlusion")]
 pub struct OcclusionOptions {
-    /// Rays of a sample that look for what stands near [default: 16]
+    /// Rays that look for what stands near: of a sample, or of a point that is probed [default: 16, or 1024 at a point]
     #[arg(long, value_name = "N", value_parser = values::count::<{ OcclusionSettings::MAX_RAYS }>)]
     ao_rays: Option<u32>,
     /// How far away something takes light away, in the scene's units, or `unlimited` [default: half the scene's radius]
@@ -21,10 +21,10 @@ pub struct OcclusionOptions {
 }
 
 impl OcclusionOptions {
-    pub fn settings(&self) -> OcclusionSettings {
+    pub fn settings(&self, default_rays: u32) -> OcclusionSettings {
         let default = OcclusionSettings::default();
         OcclusionSettings {
-            rays: self.ao_rays.unwrap_or(default.rays),
+            rays: self.ao_rays.unwrap_or(default_rays),
             range: self.ao_distance.unwrap_or(default.range),
             falloff: self.ao_falloff.unwrap_or(default.falloff),
         }

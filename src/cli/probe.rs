@@ -1,33 +1,38 @@
-//! `lightwell probe`: the irradiance at points.
+//! `lightwell probe`: the irradiance at points, or the share of ambient light that arrives there.
 
-use super::CliError;
+use super::occlusion_options::OcclusionOptions;
 use super::photon_options::{LightMethod, PhotonOptions};
 use super::run_options::RunOptions;
 use super::solve::check_method;
 use super::tracing::Tracing;
+use super::{CliError, refuse};
 use crate::choice::{Choice, parse};
 use crate::math::rgb::Rgb;
 use crate::math::stats::Moments;
 use crate::methods::Settings;
+use crate::methods::ambient_occlusion::shares;
 use crate::methods::photon_map::{Estimate, ProgressivePoints, Scratch, Which};
 use crate::methods::radiosity::irradiance_in_space;
-use crate::methods::transport::Surface;
-use crate::solution::SurfaceProbe;
-use crate::worker::TracedPhotons;
+use crate::methods::transport::{Surface, Transport};
+use crate::solution::{CameraView, SurfaceProbe};
+use crate::worker::Subject;
 use glam::Vec3;
 use serde_json::{Value, json};
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 #[derive(clap::Args, Debug)]
 pub struct Options {
     #[command(flatten)]
     run: RunOptions,
-    /// How light is computed: radiosity or photon-map
-    #[arg(long, value_name = "METHOD", default_value = LightMethod::default().name(), value_parser = parse::<LightMethod>)]
-    method: LightMethod,
+    /// What is computed: light by radiosity or photon-map, or ambient-occlusion
+    #[arg(long, value_name = "METHOD", default_value = Method::default().name(), value_parser = parse::<Method>)]
+    method: Method,
     #[command(flatten)]
     photons: PhotonOptions,
+    #[command(flatten)]
+    occlusion: OcclusionOptions,
     /// Lines of `x y z nx ny nz`; `-` for standard input
     #[arg(long, value_name = "FILE|-")]
     points: PathBuf,
@@ -36,13 +41,57 @@ pub struct Options {
     json: bool,
 }
 
+/// What is computed at a point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Method {
+    Light(LightMethod),
+    AmbientOcclusion,
+}
+
+impl Default for Method {
+    fn default() -> Self {
+        Self::Light(LightMethod::default())
+    }
+}
+
+impl Choice for Method {
+    const ALL: &'static [Self] =
+        &[Self::Light(LightMethod::Radiosity), Self::Light(LightMethod::PhotonMap), Self::AmbientOcclusion];
+    const KIND: &'static str = LightMethod::KIND;
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Light(method) => method.name(),
+            Self::AmbientOcclusion => CameraView::AmbientOcclusion.name(),
+        }
+    }
+
+    fn label(self) -> &'static str {
+        match self {
+            Self::Light(method) => method.label(),
+            Self::AmbientOcclusion => CameraView::AmbientOcclusion.label(),
+        }
+    }
+
+    fn meaning(self) -> &'static str {
+        match self {
+            Self::Light(method) => method.meaning(),
+            Self::AmbientOcclusion => CameraView::AmbientOcclusion.meaning(),
+        }
+    }
+}
+
+/// Rays at a point where nothing is said: with them a share of a half has a standard error of 1/64.
+const OCCLUSION_RAYS: u32 = 1024;
+
 /// A point and a unit normal.
 type Sensor = (Vec3, Vec3);
 
-/// What was found at a point: the irradiance, W/m², and how good it is.
+/// What was found at a point, and how good it is.
 struct Measured {
     sensor: Sensor,
-    irradiance: Rgb,
+    /// The irradiance, W/m², or the share of ambient light that arrives.
+    value: Rgb,
     quality: Quality,
 }
 
@@ -53,16 +102,46 @@ enum Quality {
     Estimate { relative_error: f32, radius: f32, photons: u32 },
     /// Of a mean over passes: its standard error, W/m², by channel.
     Mean { standard_error: [f64; 3], passes: u64 },
+    /// Of a share: its standard error, the same in all channels.
+    Share { standard_error: f64, rays: u64 },
 }
 
 pub fn run(options: &Options) -> Result<(), CliError> {
-    check_method(options.method, &options.run, &options.photons);
+    options.check();
     let sensors = read(&options.points)?;
     let measured = match options.method {
-        LightMethod::Radiosity => by_radiosity(options, &sensors)?,
-        LightMethod::PhotonMap => by_photons(options, &sensors)?,
+        Method::Light(LightMethod::Radiosity) => by_radiosity(options, &sensors)?,
+        Method::Light(LightMethod::PhotonMap) => by_photons(options, &sensors)?,
+        Method::AmbientOcclusion => by_occlusion(options, &sensors)?,
     };
     print(&measured, options.json)
+}
+
+impl Options {
+    /// Ends the program, as any other wrong command line does, where an option is about another method.
+    fn check(&self) {
+        let (run, name) = (&self.run, self.method.name());
+        let stranger = match self.method {
+            Method::Light(method) => {
+                check_method(method, run, &self.photons);
+                self.occlusion.given()
+            }
+            Method::AmbientOcclusion => {
+                let rays = run.light_rays.map(|_| "--light-rays");
+                let time = run.time().map(|_| "--time");
+                self.photons.given().or(run.stop_of_radiosity()).or(rays).or(time)
+            }
+        };
+        if let Some(option) = stranger {
+            refuse(&format!("{option} is not for --method {name}"));
+        }
+        let subject = Subject::Camera(CameraView::AmbientOcclusion);
+        if self.method == Method::AmbientOcclusion
+            && let Some(objection) = run.effects.objection(subject, &run.settings(), &format!("--method {name}"))
+        {
+            refuse(&objection);
+        }
+    }
 }
 
 /// On a surface the solution is read off; in the air it is gathered from all patches, as a light meter would.
@@ -74,7 +153,7 @@ fn by_radiosity(options: &Options, sensors: &[Sensor]) -> Result<Vec<Measured>, 
         let irradiance = on_surface.unwrap_or_else(|| {
             irradiance_in_space(&solved.world, &solved.solution, point.into(), normal.into(), solved.settings.seed)
         });
-        Measured { sensor: (point, normal), irradiance, quality: Quality::Unknown }
+        Measured { sensor: (point, normal), value: irradiance, quality: Quality::Unknown }
     };
     Ok(sensors.iter().map(measure).collect())
 }
@@ -83,11 +162,9 @@ fn by_radiosity(options: &Options, sensors: &[Sensor]) -> Result<Vec<Measured>, 
 fn by_photons(options: &Options, sensors: &[Sensor]) -> Result<Vec<Measured>, CliError> {
     let settings = Settings { photons: options.photons.settings(), ..options.run.settings() };
     let mut tracing = Tracing::new(options.run.open()?, settings, options.run.time());
-    let surface = |photons: &mut TracedPhotons, &(point, normal): &Sensor| {
-        photons.surface(point.into(), normal.into()).ok_or(CliError::InTheAir { point: point.to_array() })
-    };
     let photons = tracing.photons()?.method();
-    let surfaces = sensors.iter().map(|sensor| surface(photons, sensor)).collect::<Result<Vec<Surface>, CliError>>()?;
+    let find = |point: Vec3, normal: Vec3| photons.surface(point.into(), normal.into());
+    let surfaces = surfaces(sensors, find, "photons land nowhere else")?;
     if settings.photons.is_progressive {
         let mut points = ProgressivePoints::new(surfaces);
         tracing.trace(|photons| points.add(&photons.method().maps(), Which::All))?;
@@ -100,9 +177,35 @@ fn by_photons(options: &Options, sensors: &[Sensor]) -> Result<Vec<Measured>, Cl
     let measure = |(&sensor, surface): (&Sensor, &Surface)| {
         let Estimate { irradiance, photons, radius, relative_error, .. } =
             maps.irradiance(surface, Which::All, &mut scratch);
-        Measured { sensor, irradiance, quality: Quality::Estimate { relative_error, radius, photons } }
+        Measured { sensor, value: irradiance, quality: Quality::Estimate { relative_error, radius, photons } }
     };
     Ok(sensors.iter().zip(&surfaces).map(measure).collect())
+}
+
+/// The share of ambient light is that of a surface, so points must be on one. No emitter is needed.
+fn by_occlusion(options: &Options, sensors: &[Sensor]) -> Result<Vec<Measured>, CliError> {
+    let settings = Settings { occlusion: options.occlusion.settings(OCCLUSION_RAYS), ..options.run.settings() };
+    let transport = Arc::new(Transport::new(options.run.open()?, settings.effects));
+    let find = |point: Vec3, normal: Vec3| transport.surface_at(point.into(), normal.into());
+    let surfaces = surfaces(sensors, find, "ambient light is asked of surfaces alone")?;
+    let measure = |(&sensor, shares): (&Sensor, Moments)| Measured {
+        sensor,
+        value: Rgb::splat(shares.mean() as f32),
+        quality: Quality::Share { standard_error: shares.standard_error(), rays: shares.count() },
+    };
+    let shares = shares(&transport, &settings.occlusion, &surfaces, settings.seed);
+    Ok(sensors.iter().zip(shares).map(measure).collect())
+}
+
+/// The surface at each point; `reason` says why there must be one.
+fn surfaces(
+    sensors: &[Sensor],
+    find: impl Fn(Vec3, Vec3) -> Option<Surface>,
+    reason: &'static str,
+) -> Result<Vec<Surface>, CliError> {
+    let surface =
+        |&(point, normal): &Sensor| find(point, normal).ok_or(CliError::InTheAir { point: point.to_array(), reason });
+    sensors.iter().map(surface).collect()
 }
 
 fn mean_over_passes(sensor: Sensor, channels: &[Moments; 3]) -> Measured {
@@ -110,7 +213,7 @@ fn mean_over_passes(sensor: Sensor, channels: &[Moments; 3]) -> Measured {
     let standard_error = channels.each_ref().map(Moments::standard_error);
     Measured {
         sensor,
-        irradiance: Rgb::new(r, g, b),
+        value: Rgb::new(r, g, b),
         quality: Quality::Mean { standard_error, passes: channels[0].count() },
     }
 }
@@ -123,8 +226,8 @@ fn print(measured: &[Measured], as_json: bool) -> Result<(), CliError> {
     } else {
         let columns = measured.first().map_or("", |first| first.quality.columns());
         writeln!(out, "x,y,z,nx,ny,nz,r,g,b{columns}")?;
-        for Measured { sensor: (point, normal), irradiance, quality } in measured {
-            let numbers = [*point, *normal, *irradiance].map(|v| format!("{},{},{}", v.x, v.y, v.z));
+        for Measured { sensor: (point, normal), value, quality } in measured {
+            let numbers = [*point, *normal, *value].map(|v| format!("{},{},{}", v.x, v.y, v.z));
             writeln!(out, "{}{}", numbers.join(","), quality.values())?;
         }
     }
@@ -135,9 +238,9 @@ fn print(measured: &[Measured], as_json: bool) -> Result<(), CliError> {
 impl Measured {
     fn json(&self) -> Value {
         let (point, normal) = self.sensor;
-        let mut object = json!({
-            "point": point.to_array(), "normal": normal.to_array(), "irradiance": self.irradiance.to_array(),
-        });
+        let mut object = json!({ "point": point.to_array(), "normal": normal.to_array() });
+        let what = if let Quality::Share { .. } = self.quality { "share" } else { "irradiance" };
+        object[what] = json!(self.value.to_array());
         match self.quality {
             Quality::Unknown => {}
             Quality::Estimate { relative_error, radius, photons } => {
@@ -148,6 +251,10 @@ impl Measured {
             Quality::Mean { standard_error, passes } => {
                 object["standard_error"] = json!(standard_error);
                 object["passes"] = json!(passes);
+            }
+            Quality::Share { standard_error, rays } => {
+                object["standard_error"] = json!(standard_error);
+                object["rays"] = json!(rays);
             }
         }
         object
@@ -161,6 +268,7 @@ impl Quality {
             Self::Unknown => "",
             Self::Estimate { .. } => ",relative_error,radius,photons",
             Self::Mean { .. } => ",r_error,g_error,b_error,passes",
+            Self::Share { .. } => ",standard_error,rays",
         }
     }
 
@@ -169,6 +277,7 @@ impl Quality {
             Self::Unknown => String::new(),
             Self::Estimate { relative_error, radius, photons } => format!(",{relative_error},{radius},{photons}"),
             Self::Mean { standard_error: [r, g, b], passes } => format!(",{r},{g},{b},{passes}"),
+            Self::Share { standard_error, rays } => format!(",{standard_error},{rays}"),
         }
     }
 }

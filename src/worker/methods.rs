@@ -10,13 +10,9 @@ use crate::methods::photon_map::{PhotonMapping, PhotonMaps};
 use crate::methods::transport::{Surface, Transport};
 use crate::methods::{Method, Settings, Step};
 use crate::solution::{CameraImage, Gathered, Photon, PhotonSolution, PhotonTrail};
-use crate::tracer::Ray;
 use crate::world::World;
 use glam::Vec3A;
 use std::sync::{Arc, Weak};
-
-/// A point lies on a surface that is nearer than this share of the scene's radius.
-const ON_SURFACE: f32 = 1e-3;
 
 /// The methods of this program.
 #[derive(Default)]
@@ -93,9 +89,7 @@ impl TracedPhotons {
 
     /// The surface at a point, seen from the side that the unit `normal` faces; `None` where there is none.
     pub fn surface(&self, point: Vec3A, normal: Vec3A) -> Option<Surface> {
-        let reach = ON_SURFACE * self.transport.world.bounds.radius();
-        let surface = self.transport.meet(&Ray { origin: point + reach * normal, direction: -normal })?;
-        (surface.distance <= 2.0 * reach).then_some(surface)
+        self.transport.surface_at(point, normal)
     }
 }
 

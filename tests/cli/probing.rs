@@ -1,6 +1,6 @@
 //! `lightwell probe`.
 
-use crate::{assert_contains, folder, json, keys, printed, program, refusal, stdout};
+use crate::{assert_contains, folder, json, keys, printed, program, refusal, stdout, write_dark_scene};
 use std::io::Write;
 use std::process::Stdio;
 
@@ -15,6 +15,14 @@ fn table(text: &str) -> Vec<[f64; 3]> {
             [numbers[6], numbers[7], numbers[8]]
         })
         .collect()
+}
+
+/// A table of shares: for each point the share in red, green and blue, its standard error and the rays.
+fn shares(text: &str) -> Vec<[f64; 5]> {
+    let mut lines = text.lines();
+    assert_eq!(lines.next(), Some("x,y,z,nx,ny,nz,r,g,b,standard_error,rays"));
+    let numbers = |line: &str| line.split(',').map(|field| field.parse().expect("a number")).collect::<Vec<f64>>();
+    lines.map(|line| numbers(line)[6..].try_into().expect("five numbers")).collect()
 }
 
 /// On the floor, on a wall, and in the air with normals of any length and direction.
@@ -64,4 +72,67 @@ fn a_malformed_line_is_named() {
     }
     let message = refusal(&folder, "probe furnace --points nowhere.txt", 1);
     assert_contains(&message, &["cannot read points from nowhere.txt", "No such file"]);
+}
+
+#[test]
+fn all_ambient_light_arrives_on_an_open_plane_and_none_in_a_closed_room() {
+    let folder = folder();
+    write_dark_scene(&folder);
+    std::fs::write(folder.path().join("points"), "0.5 0 0.5 0 1 0\n0.2 0 0.9 0 3 0\n").expect("a file");
+    let probe = "probe --points points --method ambient-occlusion";
+    // Nothing but the sky is in sight, and the plane does not hide itself.
+    for share in shares(&printed(&folder, &format!("{probe} dark.obj"))) {
+        assert_eq!(share, [1.0, 1.0, 1.0, 0.0, 1024.0]);
+    }
+    for share in shares(&printed(&folder, &format!("{probe} furnace --ao-distance unlimited --ao-rays 300"))) {
+        assert_eq!(share, [0.0, 0.0, 0.0, 0.0, 300.0]);
+    }
+    let points = json(&folder, &format!("{probe} dark.obj --json"));
+    assert_eq!(keys(&points["points"][0]), ["normal", "point", "rays", "share", "standard_error"]);
+}
+
+#[test]
+fn under_a_ceiling_the_shares_are_those_of_closed_forms() {
+    let folder = folder();
+    // Two planes 1 m apart, which end at 200 m: of the sky, 1/200² = 3e-5 is beyond that.
+    let plane = |y: i32| format!("v -200 {y} -200\nv -200 {y} 200\nv 200 {y} 200\nv 200 {y} -200\nf -4 -3 -2 -1\n");
+    std::fs::write(folder.path().join("ceiling.obj"), plane(0) + &plane(1)).expect("a file");
+    std::fs::write(folder.path().join("points"), "0 0 0 0 1 0\n0.3 1 0.2 0 -1 0\n").expect("a file");
+    for (falloff, distance, hidden) in [
+        // 1 − (h/D)², (1 − h/D)², 1 − ln 2, 2 E₃(1)
+        ("none", 2.0, 0.75),
+        ("linear", 2.0, 0.25),
+        ("quadratic", 1.0, 0.306_852_819_440_055),
+        ("exponential", 1.0, 0.219_383_934_395_520),
+    ] {
+        let options = format!("--ao-falloff {falloff} --ao-distance {distance} --ao-rays 4096");
+        let probe = format!("probe ceiling.obj --points points --method ambient-occlusion {options}");
+        for [r, g, b, error, rays] in shares(&printed(&folder, &probe)) {
+            assert!(r == g && g == b && rays == 4096.0);
+            // Rays start 32 ulps of 200 m above the surface, 8e-4 m, and no share changes by more than 1.4 a metre.
+            let is_close = (r - (1.0 - hidden)).abs() <= 3.0 * error + 1.2e-3;
+            // Whatever the fall-off, no variance is above that of all or nothing, and no share here is all or nothing.
+            let most = (r * (1.0 - r) / (rays - 1.0)).sqrt();
+            assert!(is_close && error > 0.1 * most && error < 1.0001 * most, "{falloff}: {r} ± {error}");
+        }
+    }
+}
+
+#[test]
+fn ambient_occlusion_is_of_surfaces_and_takes_no_options_of_light() {
+    let folder = folder();
+    std::fs::write(folder.path().join("points"), "0.5 0.5 0.5 0 1 0\n").expect("a file");
+    let probe = "probe furnace --points points --method ambient-occlusion";
+    let message = refusal(&folder, probe, 1);
+    assert_contains(&message, &["no surface is at 0.5,0.5,0.5", "of surfaces alone"]);
+    for option in ["--photons 5", "--steps 5", "--converge 1", "--time 1", "--light-rays 5000"] {
+        let name = option.split(' ').next().expect("a name");
+        let message = refusal(&folder, &format!("{probe} {option}"), 2);
+        assert_contains(&message, &[&format!("{name} is not for --method ambient-occlusion")]);
+    }
+    assert_contains(&refusal(&folder, &format!("{probe} --without colour"), 2), &["can leave out nothing"]);
+    let message = refusal(&folder, "probe furnace --points points --ao-rays 5", 2);
+    assert_contains(&message, &["--ao-rays is not for --method radiosity"]);
+    let message = refusal(&folder, "solve furnace --method ambient-occlusion", 2);
+    assert_contains(&message, &["no method is called `ambient-occlusion`", "radiosity, photon-map"]);
 }

@@ -11,7 +11,7 @@ use super::photon_options::PhotonOptions;
 use super::run_options::RunOptions;
 use super::{CliError, picture, refuse, values};
 use crate::choice::Choice;
-use crate::methods::Settings;
+use crate::methods::{OcclusionSettings, Settings};
 use crate::viewport::{Picture, View};
 use serde_json::{Value, json};
 use std::io::Write;
@@ -98,7 +98,7 @@ impl Options {
         let light_rays = if self.view.is_radiosity() { settings.light_rays } else { Settings::default().light_rays };
         let own = self.run.light_rays.filter(|_| self.view.samples_emitters());
         let image = self.image.settings(own);
-        let occlusion = self.occlusion.settings();
+        let occlusion = self.occlusion.settings(OcclusionSettings::default().rays);
         Settings { light_rays, photons: self.photons.settings(), image, occlusion, ..settings }
     }
 }

@@ -3,9 +3,11 @@
 
 mod falloff;
 mod pattern;
+mod point;
 
 pub use falloff::{Falloff, OcclusionSettings, Range};
 pub use pattern::Pattern;
+pub use point::shares;
 
 use crate::math::warp::{cosine_hemisphere, frame};
 use crate::methods::transport::{Surface, Transport};

@@ -37,6 +37,9 @@ pub struct Transport {
     has_glass: bool,
 }
 
+/// A point lies on a surface that is nearer than this share of the scene's radius.
+const ON_SURFACE: f32 = 1e-3;
+
 /// What the simulated effects leave of a material.
 struct MaterialLook {
     lobes: Lobes,
@@ -105,6 +108,13 @@ impl Transport {
             normal: shading.map_or(facing, |normal| towards(normal.into(), facing)),
             material: self.world.scene.polygons[hit.polygon as usize].material,
         })
+    }
+
+    /// The surface at a point, seen from the side that the unit `normal` faces; `None` where there is none.
+    pub fn surface_at(&self, point: Vec3A, normal: Vec3A) -> Option<Surface> {
+        let reach = ON_SURFACE * self.world.bounds.radius();
+        let surface = self.meet(&Ray { origin: point + reach * normal, direction: -normal })?;
+        (surface.distance <= 2.0 * reach).then_some(surface)
     }
 
     pub fn material(&self, surface: &Surface) -> &Material {
