@@ -9,6 +9,8 @@ mod effects;
 mod keyboard;
 #[path = "window/looking.rs"]
 mod looking;
+#[path = "window/occlusion.rs"]
+mod occlusion;
 #[path = "window/photons.rs"]
 mod photons;
 #[path = "window/solvers.rs"]
@@ -245,9 +247,9 @@ fn findings_are_listed_with_what_was_done() {
 #[test]
 fn a_dark_scene_is_offered_a_light_once() {
     let dark = vec![finding(FindingKind::NoEmitter, Severity::Warning)];
-    let offered = click(Stage { findings: dark.clone(), ..Stage::default() }, "Add a ceiling light");
-    assert_eq!(offered, [Action::Send(Command::AddCeilingLight)]);
-    let mut lit = dark;
+    let stage = || Stage { findings: dark.clone(), ..Stage::default() };
+    assert_eq!(click(stage(), "Add a ceiling light"), [Action::Send(Command::AddCeilingLight)]);
+    let mut lit = dark.clone();
     lit.push(finding(FindingKind::CeilingLightAdded, Severity::Note));
     let harness = Stage { findings: lit, ..Stage::default() }.small();
     assert!(harness.query_by_label("Add a ceiling light").is_none());

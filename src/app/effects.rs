@@ -44,6 +44,11 @@ impl<'a> EffectFacts<'a> {
                     add(*rays, photons.elapsed, bill);
                 }
             }
+            Some(LightKind::Occlusion) => {
+                if let Some(occlusion) = &snapshot.occlusion {
+                    add(occlusion.rays, occlusion.elapsed, &Bill::default());
+                }
+            }
             None => {}
         }
         if let Some(picture) = image(look.view, snapshot) {

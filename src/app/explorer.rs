@@ -152,6 +152,7 @@ impl Explorer {
             effects: EffectFacts::of(&self.snapshot, &self.look, &settings),
             solution: self.snapshot.solution.as_deref(),
             photons: self.snapshot.photons.as_deref(),
+            occlusion: self.snapshot.occlusion.as_deref(),
             image: views::image(self.look.view, &self.snapshot),
             trail: self.snapshot.trail.as_deref(),
             gathered: self.snapshot.gathered.as_deref(),

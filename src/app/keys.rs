@@ -53,6 +53,7 @@ pub const FINAL_GATHER: KeyboardShortcut = KeyboardShortcut::new(Modifiers::SHIF
 pub const AMBIENT_OCCLUSION: KeyboardShortcut = KeyboardShortcut::new(Modifiers::SHIFT, Key::Num5);
 pub const DIFFUSE: KeyboardShortcut = KeyboardShortcut::new(Modifiers::SHIFT, Key::Num6);
 pub const DIFFUSE_AMBIENT: KeyboardShortcut = KeyboardShortcut::new(Modifiers::SHIFT, Key::Num7);
+pub const OCCLUSION_VERTICES: KeyboardShortcut = KeyboardShortcut::new(Modifiers::SHIFT, Key::Num8);
 pub const WIREFRAME: KeyboardShortcut = key(Key::W);
 pub const SHOOTER: KeyboardShortcut = key(Key::O);
 pub const TICKS: KeyboardShortcut = key(Key::T);
@@ -108,6 +109,9 @@ pub const BINDINGS: &[Binding] = &[
     Binding::new(DIFFUSE_AMBIENT, "View: the same with ambient occlusion", |model| {
         view(model, View::Camera(CameraView::DiffuseAmbient))
     }),
+    Binding::new(OCCLUSION_VERTICES, "View: ambient occlusion on the mesh", |model| {
+        view(model, View::OcclusionVertices)
+    }),
     Binding::new(WIREFRAME, "Show or hide the elements' edges", |model| {
         Some(Action::SetLook(Look { wireframe: !model.look.wireframe, ..model.look }))
     }),
@@ -148,6 +152,7 @@ pub fn of_view(view: View) -> KeyboardShortcut {
         View::FormFactors => FORM_FACTORS,
         View::Photons => PHOTONS,
         View::KdTree => KD_TREE,
+        View::OcclusionVertices => OCCLUSION_VERTICES,
         View::Camera(CameraView::PhotonIrradiance) => PHOTON_IRRADIANCE,
         View::Camera(CameraView::PhotonRadiance) => PHOTON_RADIANCE,
         View::Camera(CameraView::Caustics) => CAUSTICS,

@@ -9,7 +9,7 @@ use crate::cli::picture::{self, Format};
 use crate::math::rgb::Rgb64;
 use crate::methods::{Settings, Solver};
 use crate::scene::{Finding, FindingKind};
-use crate::solution::{CameraImage, Gathered, PhotonSolution, PhotonTrail, Solution};
+use crate::solution::{CameraImage, Gathered, PhotonSolution, PhotonTrail, Solution, VertexShares};
 use crate::viewport::{Exposure, Legend, PhotonLook, ToneCurve, View};
 use crate::worker::{CheckReport, Curve, LightKind, Phase, Snapshot, Subject};
 use std::path::PathBuf;
@@ -28,6 +28,7 @@ pub struct Model<'a> {
     pub effects: Option<EffectFacts<'a>>,
     pub solution: Option<&'a Solution>,
     pub photons: Option<&'a PhotonSolution>,
+    pub occlusion: Option<&'a VertexShares>,
     /// The picture from a camera that is on show, if the view is one.
     pub image: Option<&'a CameraImage>,
     /// The way of the picked photon.
@@ -83,9 +84,11 @@ impl Model<'_> {
         self.subject().light()
     }
 
-    /// Whether there is light to compute: a scene with an emitter is open, and the solver is alive and not done.
+    /// Whether there is light to compute: a scene with an emitter is open, or one of which ambient light is asked, and the
+    /// solver is alive and not done.
     pub fn can_run(&self) -> bool {
-        let is_open = self.scene.is_some_and(|scene| !scene.is_dark());
+        let needs_emitter = self.light() != Some(LightKind::Occlusion);
+        let is_open = self.scene.is_some_and(|scene| !(needs_emitter && scene.is_dark()));
         is_open && self.light().is_some() && matches!(self.phase, Phase::Paused | Phase::Running)
     }
 
@@ -101,7 +104,7 @@ impl Model<'_> {
     /// What a step of the light on show is called.
     pub fn step_name(&self) -> &'static str {
         match self.light() {
-            Some(LightKind::Photons) => "batch",
+            Some(LightKind::Photons | LightKind::Occlusion) => "batch",
             _ if self.sweeps() => "sweep",
             _ => "shot",
         }
@@ -112,6 +115,7 @@ impl Model<'_> {
         match self.subject() {
             Subject::Radiosity => self.patch.is_some(),
             Subject::Photons | Subject::Camera(_) => self.trail.is_some() || self.gathered.is_some(),
+            Subject::Occlusion => false,
         }
     }
 
@@ -121,6 +125,7 @@ impl Model<'_> {
         let has_light = match self.light() {
             Some(LightKind::Radiosity) => self.solution.is_some(),
             Some(LightKind::Photons) => self.photons.is_some_and(|photons| !photons.photons.is_empty()),
+            Some(LightKind::Occlusion) => self.occlusion.is_some_and(|occlusion| !occlusion.shares.is_empty()),
             None => true,
         };
         self.subject() == Subject::Radiosity || !(has_light || self.is_running())
@@ -146,6 +151,12 @@ impl Model<'_> {
         let before = photons.passes - u64::from(photons.is_complete);
         let passes = if wanted.is_progressive { wanted.passes.max(1) } else { 1 };
         ((before as f64 + pass) / f64::from(passes)).min(1.0) as f32
+    }
+
+    /// Share of the rounds over all vertices that are done, in [0, 1].
+    pub fn occlusion_progress(&self) -> f32 {
+        let rounds = self.occlusion.map_or(0, |occlusion| occlusion.rounds);
+        (rounds as f32 / self.settings.image.samples.max(1) as f32).min(1.0)
     }
 
     /// How far the light is between the emitters (0) and the stop limit (1), on a logarithmic scale: a solver takes

@@ -182,6 +182,7 @@ fn light_of(snapshot: &Snapshot) -> Light {
         solution: snapshot.solution.clone(),
         picked: snapshot.picked.clone(),
         photons: snapshot.photons.clone(),
+        occlusion: snapshot.occlusion.clone(),
         image: snapshot.image.clone(),
         trail: snapshot.trail.clone(),
         gathered: snapshot.gathered.clone(),
@@ -196,6 +197,7 @@ fn is_same_light(one: &Light, other: &Light) -> bool {
     is_shared(&one.solution, &other.solution)
         && is_shared(&one.picked, &other.picked)
         && is_shared(&one.photons, &other.photons)
+        && is_shared(&one.occlusion, &other.occlusion)
         && is_shared(&one.image, &other.image)
         && is_shared(&one.trail, &other.trail)
         && is_shared(&one.gathered, &other.gathered)

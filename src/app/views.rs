@@ -23,7 +23,8 @@ impl ViewGroup {
                 Self::PhotonMap
             }
             View::Camera(CameraView::RayTraced | CameraView::RadiositySpecular | CameraView::FinalGather) => Self::Rays,
-            View::Camera(CameraView::AmbientOcclusion | CameraView::Diffuse | CameraView::DiffuseAmbient) => {
+            View::OcclusionVertices
+            | View::Camera(CameraView::AmbientOcclusion | CameraView::Diffuse | CameraView::DiffuseAmbient) => {
                 Self::Occlusion
             }
             View::Patches | View::Smooth | View::Unshot | View::Absorbed | View::Bounces | View::FormFactors => {

@@ -2,8 +2,8 @@
 
 use crate::choice::Choice;
 use crate::effects::Effect;
-use crate::methods::Settings;
-use crate::solution::{CameraImage, CameraView, PhotonSolution};
+use crate::methods::{OcclusionSettings, Settings};
+use crate::solution::{CameraImage, CameraView, PhotonSolution, VertexShares};
 use crate::viewport::diagram::Diagram;
 use crate::viewport::{Frame, Light, View};
 use crate::worker::Subject;
@@ -24,6 +24,7 @@ impl Facts {
 pub fn subject(view: View) -> Subject {
     match view {
         View::Camera(view) => Subject::Camera(view),
+        View::OcclusionVertices => Subject::Occlusion,
         view if view.shows_photons() => Subject::Photons,
         _ => Subject::Radiosity,
     }
@@ -35,6 +36,7 @@ pub fn facts(world: &World, light: &Light, settings: &Settings, frame: &Frame) -
     match frame.view {
         View::Photons | View::KdTree => facts.add_photons(light.photons.as_deref(), settings),
         View::Camera(view) => facts.add_image(view, light, settings),
+        View::OcclusionVertices => facts.add_occlusion(light.occlusion.as_deref(), settings),
         _ => facts.add_radiosity(light, settings),
     }
     facts.add_effects(subject(frame.view), settings);
@@ -126,6 +128,23 @@ impl Facts {
         }
     }
 
+    fn add_occlusion(&mut self, occlusion: Option<&VertexShares>, settings: &Settings) {
+        self.add("Method", "ambient occlusion on vertices");
+        self.add_range(&settings.occlusion);
+        if let Some(VertexShares { rounds, rays, elapsed, .. }) = occlusion {
+            self.add("Rounds", rounds);
+            self.add("Rays", rays);
+            self.add("Seconds", seconds(*elapsed));
+        }
+    }
+
+    /// Which rays look for what stands near, and how far.
+    fn add_range(&mut self, settings: &OcclusionSettings) {
+        self.add("Ambient rays", settings.rays);
+        self.add("Ambient fall-off", settings.falloff.name());
+        self.add("Ambient distance", settings.range);
+    }
+
     fn add_image(&mut self, view: CameraView, light: &Light, settings: &Settings) {
         if view.needs_photons() {
             self.add_photons(light.photons.as_deref(), settings);
@@ -141,9 +160,7 @@ impl Facts {
             self.add("Light rays", settings.image.light_rays);
         }
         if view.is_occluded() {
-            self.add("Ambient rays", settings.occlusion.rays);
-            self.add("Ambient fall-off", settings.occlusion.falloff.name());
-            self.add("Ambient distance", settings.occlusion.range);
+            self.add_range(&settings.occlusion);
         }
         if view.has_paths() && !settings.image.filter.passes_all() {
             self.add("Paths", settings.image.filter.as_str());

@@ -3,8 +3,10 @@
 use super::{CliError, effect_options};
 use crate::cancel::Cancel;
 use crate::math::rgb::total;
+use crate::methods::ambient_occlusion::VertexOcclusion;
+use crate::methods::transport::Transport;
 use crate::methods::{ImageSettings, Settings, Step};
-use crate::solution::{CameraImage, PhotonSolution, Solution};
+use crate::solution::{CameraImage, PhotonSolution, Solution, VertexShares};
 use crate::worker::{CameraShot, Lights, Methods, PhotonRun, Subject, TracedPhotons, Workshop};
 use crate::world::World;
 use serde_json::{Map, Value, json};
@@ -64,6 +66,16 @@ impl Tracing {
                 return Ok(true);
             }
         }
+    }
+
+    /// Ambient occlusion on the mesh: all rounds that the settings ask for, or as many as the time allows, but one at least.
+    pub fn occlusion(&self) -> VertexShares {
+        let transport = Arc::new(Transport::new(self.world.clone(), self.settings.effects));
+        let mut method = VertexOcclusion::new(transport, &self.settings);
+        let start = Instant::now();
+        let has_time = |rounds: u32| rounds == 0 || start.elapsed() < self.time;
+        while has_time(method.rounds()) && method.step(&Cancel::default()) == Step::Advanced {}
+        VertexShares { elapsed: start.elapsed(), ..method.solution() }
     }
 
     /// A picture from a camera: of `samples` a pixel, or as many as the time allows, but one at least. With progressive

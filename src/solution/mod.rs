@@ -2,12 +2,14 @@
 
 mod exchange;
 mod image;
+mod occlusion;
 mod path;
 mod photons;
 mod probe;
 
 pub use exchange::{FormFactorMatrix, ItemBuffer, Picked, Zero};
 pub use image::{CameraImage, CameraView};
+pub use occlusion::VertexShares;
 pub use path::{Path, PathFilter, PathMatcher, Scattering};
 pub use photons::{Gathered, Photon, PhotonCounters, PhotonEnergy, PhotonSolution, PhotonTrail, Split, TrailPlace};
 pub use probe::SurfaceProbe;

@@ -3,7 +3,7 @@
 use super::Gpu;
 use super::gpu_types::{FrameUniform, OutlineUniform};
 use super::pipelines::{Pipelines, bind};
-use super::shading::{Quantity, Shading};
+use super::shading::{Quantity, Shading, Spread};
 use crate::math::rgb::Rgb;
 use crate::mesh::{Mesh, Patch};
 use crate::world::World;
@@ -91,12 +91,14 @@ impl WorldBuffers {
 
     /// Uploads the values that are drawn from now on. Only memory is moved: no buffer is made.
     pub fn set_values(&mut self, gpu: &Gpu, shading: &Shading<'_>) {
-        self.is_smooth = shading.is_smooth;
-        if shading.is_smooth {
-            self.world.mesh.smooth(&shading.values, &mut self.smoothed);
-            gpu.queue.write_buffer(&self.vertex_values.buffer, 0, cast_slice(&self.smoothed));
-        } else {
-            gpu.queue.write_buffer(&self.element_values.buffer, 0, cast_slice(&shading.values));
+        self.is_smooth = shading.spread != Spread::Constant;
+        match shading.spread {
+            Spread::Constant => gpu.queue.write_buffer(&self.element_values.buffer, 0, cast_slice(&shading.values)),
+            Spread::Averaged => {
+                self.world.mesh.smooth(&shading.values, &mut self.smoothed);
+                gpu.queue.write_buffer(&self.vertex_values.buffer, 0, cast_slice(&self.smoothed));
+            }
+            Spread::OfVertices => gpu.queue.write_buffer(&self.vertex_values.buffer, 0, cast_slice(&shading.values)),
         }
         self.quantity = shading.quantity;
         let units_per_value = match shading.quantity {

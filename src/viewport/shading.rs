@@ -1,4 +1,4 @@
-//! What a view shows of the light: a value for every element.
+//! What a view shows of the light: a value for every element, or for every vertex.
 
 use super::colour_map::GREY;
 use super::{Frame, Legend, Light, View};
@@ -24,11 +24,21 @@ pub enum Quantity {
 /// The surfaces as a view shows them.
 #[derive(Debug)]
 pub struct Shading<'a> {
-    /// In the order of the mesh's elements.
+    /// In the order of the mesh's elements, or of its vertices.
     pub values: Cow<'a, [Rgb]>,
     pub quantity: Quantity,
-    /// Whether values are averaged to vertices and interpolated.
-    pub is_smooth: bool,
+    pub spread: Spread,
+}
+
+/// How values vary over an element.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Spread {
+    /// One value an element.
+    Constant,
+    /// Values of elements, averaged to vertices and interpolated between these.
+    Averaged,
+    /// Values of vertices, interpolated between these.
+    OfVertices,
 }
 
 impl<'a> Shading<'a> {
@@ -39,8 +49,8 @@ impl<'a> Shading<'a> {
 
     fn of_view(world: &World, light: &'a Light, frame: &Frame) -> Option<Self> {
         let solution = light.solution.as_deref();
-        let constant = |values| Self { values, quantity: Quantity::FluxDensity, is_smooth: false };
-        let smooth = |values| Self { is_smooth: true, ..constant(values) };
+        let constant = |values| Self { values, quantity: Quantity::FluxDensity, spread: Spread::Constant };
+        let smooth = |values| Self { spread: Spread::Averaged, ..constant(values) };
         Some(match frame.view {
             View::Patches => constant(radiosity(world, solution?, frame.ambient)),
             View::Smooth => smooth(radiosity(world, solution?, frame.ambient)),
@@ -63,6 +73,11 @@ impl<'a> Shading<'a> {
                 light.photons.as_ref()?;
                 Self::colours(world, |_, patch| DIMMED * plain(patch))
             }
+            View::OcclusionVertices => Self {
+                values: light.shares()?.iter().map(|&share| Rgb::splat(share)).collect(),
+                quantity: Quantity::Colour,
+                spread: Spread::OfVertices,
+            },
             View::Camera(_) => return None,
         })
     }
@@ -72,7 +87,7 @@ impl<'a> Shading<'a> {
         let Mesh { patches, elements, .. } = &world.mesh;
         let of_patch: Vec<Rgb> = patches.iter().enumerate().map(|(index, patch)| colour(index, patch)).collect();
         let values = elements.iter().map(|element| of_patch[element.patch as usize]).collect();
-        Self { values: Cow::Owned(values), quantity: Quantity::Colour, is_smooth: false }
+        Self { values: Cow::Owned(values), quantity: Quantity::Colour, spread: Spread::Constant }
     }
 }
 

@@ -3,7 +3,9 @@
 use super::{PhotonLook, ToneCurve};
 use crate::camera::Camera;
 use crate::choice::Choice;
-use crate::solution::{CameraImage, CameraView, Gathered, PathFilter, PhotonSolution, PhotonTrail, Picked, Solution};
+use crate::solution::{
+    CameraImage, CameraView, Gathered, PathFilter, PhotonSolution, PhotonTrail, Picked, Solution, VertexShares,
+};
 use std::sync::Arc;
 
 /// Which quantity is drawn, and how it varies over an element.
@@ -27,6 +29,8 @@ pub enum View {
     Photons,
     /// The same, and the planes that divide them for looking them up.
     KdTree,
+    /// The share of an even light from everywhere that arrives at each vertex, interpolated between them.
+    OcclusionVertices,
     /// A picture that was made from the camera, pixel by pixel.
     Camera(CameraView),
 }
@@ -46,6 +50,8 @@ impl View {
                 Some("No photon has landed: they are kept where a surface has a diffuse part")
             }
             Self::Photons | Self::KdTree => Some("There are no photons yet: press Run"),
+            Self::OcclusionVertices if light.shares().is_some() => None,
+            Self::OcclusionVertices => Some("No ray has looked for open sky yet: press Run"),
             // What shines itself may be seen already.
             Self::Camera(view) if view.needs_photons() && waits_for_photons => Some(NO_PHOTONS),
             Self::Camera(view) if light.image_of(view).is_some() => None,
@@ -66,9 +72,18 @@ impl View {
     /// Whether colours stand for numbers. Exposure and tone curve do not change them.
     pub fn is_false_colour(self) -> bool {
         match self {
-            Self::FormFactors => true,
+            Self::FormFactors | Self::OcclusionVertices => true,
             Self::Camera(view) => !view.is_light(),
             _ => self.shows_photons(),
+        }
+    }
+
+    /// Whether ambient occlusion is a part of it.
+    pub fn is_occluded(self) -> bool {
+        match self {
+            Self::OcclusionVertices => true,
+            Self::Camera(view) => view.is_occluded(),
+            _ => false,
         }
     }
 
@@ -97,6 +112,7 @@ impl Choice for View {
         Self::Camera(CameraView::AmbientOcclusion),
         Self::Camera(CameraView::Diffuse),
         Self::Camera(CameraView::DiffuseAmbient),
+        Self::OcclusionVertices,
     ];
     const KIND: &'static str = "view";
 
@@ -110,6 +126,7 @@ impl Choice for View {
             Self::FormFactors => "form-factors",
             Self::Photons => "photons",
             Self::KdTree => "kd-tree",
+            Self::OcclusionVertices => "ambient-occlusion-vertices",
             Self::Camera(view) => view.name(),
         }
     }
@@ -124,6 +141,7 @@ impl Choice for View {
             Self::FormFactors => "Form factors",
             Self::Photons => "Photons",
             Self::KdTree => "kd-tree",
+            Self::OcclusionVertices => "AO on vertices",
             Self::Camera(view) => view.label(),
         }
     }
@@ -138,6 +156,9 @@ impl Choice for View {
             Self::FormFactors => "Which share of its light a picked patch sends to every other, in false colours",
             Self::Photons => "Where photons landed, each a point",
             Self::KdTree => "The planes that divide the photons so that the nearest ones are found fast",
+            Self::OcclusionVertices => {
+                "Share of an even light from everywhere that arrives, on the mesh: the same from all sides"
+            }
             Self::Camera(view) => view.meaning(),
         }
     }
@@ -151,6 +172,8 @@ pub struct Light {
     /// What the picked patch sees.
     pub picked: Option<Arc<Picked>>,
     pub photons: Option<Arc<PhotonSolution>>,
+    /// How much ambient light arrives at each vertex.
+    pub occlusion: Option<Arc<VertexShares>>,
     /// The picture from a camera that was made last.
     pub image: Option<Arc<CameraImage>>,
     /// The way of the picked photon.
@@ -160,6 +183,11 @@ pub struct Light {
 }
 
 impl Light {
+    /// The share of ambient light at each vertex, where it is known.
+    pub(super) fn shares(&self) -> Option<&[f32]> {
+        self.occlusion.as_ref().map(|occlusion| occlusion.shares.as_slice()).filter(|shares| !shares.is_empty())
+    }
+
     /// The picture from a camera, if it is of this view.
     pub fn image_of(&self, view: CameraView) -> Option<&Arc<CameraImage>> {
         self.image.as_ref().filter(|image| image.view == view)
@@ -205,6 +233,7 @@ impl Frame {
         }
         let picked = light.picked.as_ref().map(|picked| picked.patch);
         let shooter = || light.solution.as_ref().and_then(|solution| solution.shooter);
-        picked.or_else(|| shooter().filter(|_| self.show_shooter && self.view != View::FormFactors))
+        let is_of_shots = !matches!(self.view, View::FormFactors | View::OcclusionVertices);
+        picked.or_else(|| shooter().filter(|_| self.show_shooter && is_of_shots))
     }
 }

@@ -22,6 +22,7 @@ impl Subject {
         match self {
             Self::Radiosity => repertoire::of_radiosity(settings.form_factor),
             Self::Photons => repertoire::of_photons(),
+            Self::Occlusion => Effects::default(),
             Self::Camera(view) => repertoire::of_view(view, settings.form_factor),
         }
     }
@@ -30,7 +31,7 @@ impl Subject {
     pub fn account(self, world: &World, settings: &Settings, bill: &Bill) -> Vec<Entry> {
         let simulated = match self {
             Self::Radiosity => radiosity::simulated(world, settings),
-            Self::Photons | Self::Camera(_) => settings.effects.simulated_in(world),
+            Self::Photons | Self::Occlusion | Self::Camera(_) => settings.effects.simulated_in(world),
         };
         let entry = |effect| Entry {
             effect,

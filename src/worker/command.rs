@@ -47,12 +47,14 @@ pub struct Sight {
 }
 
 /// Whose work is on show. `Run`, `Step`, `Pause` and `Reset` are about its light: the radiosity solution, or the photons
-/// that a picture is read off. Pictures from a camera are made without being told to.
+/// that a picture is read off, or ambient light on the mesh. Pictures from a camera are made without being told to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Subject {
     #[default]
     Radiosity,
     Photons,
+    /// Ambient occlusion at the vertices of the mesh.
+    Occlusion,
     Camera(CameraView),
 }
 
@@ -61,10 +63,12 @@ pub enum Subject {
 pub enum LightKind {
     Radiosity,
     Photons,
+    /// Ambient light, as far as it is not occluded, at the vertices of the mesh.
+    Occlusion,
 }
 
 impl LightKind {
-    pub const ALL: [Self; 2] = [Self::Radiosity, Self::Photons];
+    pub const ALL: [Self; 3] = [Self::Radiosity, Self::Photons, Self::Occlusion];
 }
 
 impl Subject {
@@ -73,6 +77,7 @@ impl Subject {
         match self {
             Self::Radiosity => Some(LightKind::Radiosity),
             Self::Photons => Some(LightKind::Photons),
+            Self::Occlusion => Some(LightKind::Occlusion),
             Self::Camera(view) if view.needs_photons() => Some(LightKind::Photons),
             Self::Camera(view) if view.needs_radiosity() => Some(LightKind::Radiosity),
             Self::Camera(_) => None,
@@ -83,7 +88,7 @@ impl Subject {
     pub fn view(self) -> Option<CameraView> {
         match self {
             Self::Camera(view) => Some(view),
-            Self::Radiosity | Self::Photons => None,
+            Self::Radiosity | Self::Photons | Self::Occlusion => None,
         }
     }
 }

@@ -2,14 +2,15 @@
 
 use super::Refused;
 use super::run::{check_photons, start_method};
-use super::workshop::{CameraShot, ImageMethod, Lights, PhotonMethod, PhotonProgress, Workshop};
+use super::workshop::{CameraShot, ImageMethod, Lights, OcclusionMethod, PhotonMethod, PhotonProgress, Workshop};
 use crate::cancel::Cancel;
 use crate::effects::Switches;
+use crate::methods::ambient_occlusion::VertexOcclusion;
 use crate::methods::image::{ImageRun, Sources};
 use crate::methods::photon_map::{PhotonMapping, PhotonMaps};
 use crate::methods::transport::{Surface, Transport};
 use crate::methods::{Method, Settings, Step};
-use crate::solution::{CameraImage, Gathered, Photon, PhotonSolution, PhotonTrail};
+use crate::solution::{CameraImage, Gathered, Photon, PhotonSolution, PhotonTrail, VertexShares};
 use crate::world::World;
 use glam::Vec3A;
 use std::sync::{Arc, Weak};
@@ -52,6 +53,10 @@ impl Workshop for Methods {
 
     fn photons(&mut self, world: &Arc<World>, settings: &Settings) -> Result<TracedPhotons, Refused> {
         TracedPhotons::start(self.transport(world, settings.effects), settings)
+    }
+
+    fn occlusion(&mut self, world: &Arc<World>, settings: &Settings) -> Box<dyn OcclusionMethod> {
+        Box::new(VertexOcclusion::new(self.transport(world, settings.effects), settings))
     }
 
     fn image(&mut self, lights: Lights<'_, TracedPhotons>, shot: &CameraShot, settings: &Settings) -> ImageRun {
@@ -120,6 +125,20 @@ impl PhotonMethod for TracedPhotons {
 
     fn gathered(&mut self, point: Vec3A, normal: Vec3A) -> Option<Gathered> {
         Some(self.mapping.maps().gathered(&self.surface(point, normal)?))
+    }
+}
+
+impl OcclusionMethod for VertexOcclusion {
+    fn step(&mut self, cancel: &Cancel) -> Step {
+        Self::step(self, cancel)
+    }
+
+    fn configure(&mut self, settings: &Settings) -> bool {
+        Self::configure(self, settings)
+    }
+
+    fn solution(&self) -> VertexShares {
+        Self::solution(self)
     }
 }
 

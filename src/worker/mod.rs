@@ -22,11 +22,11 @@ pub use command::{Command, LightKind, Place, Shown, Sight, Spot, Subject};
 pub use history::{Curve, CurvePoint};
 pub use methods::{Methods, TracedPhotons};
 pub use run::{PhotonRun, Refused, Run};
-pub use workshop::{CameraShot, ImageMethod, Lights, PhotonMethod, PhotonProgress, Workshop};
+pub use workshop::{CameraShot, ImageMethod, Lights, OcclusionMethod, PhotonMethod, PhotonProgress, Workshop};
 
 use crate::effects::Plan;
 use crate::methods::Settings;
-use crate::solution::{CameraImage, Gathered, PhotonSolution, PhotonTrail, Picked, Solution};
+use crate::solution::{CameraImage, Gathered, PhotonSolution, PhotonTrail, Picked, Solution, VertexShares};
 use crate::world::World;
 use mailbox::Mailbox;
 use solver::Solver;
@@ -48,6 +48,8 @@ pub struct Snapshot {
     pub picked: Option<Arc<Picked>>,
     /// What photons have brought; belongs to `world`.
     pub photons: Option<Arc<PhotonSolution>>,
+    /// How much ambient light arrives at each vertex; belongs to `world`.
+    pub occlusion: Option<Arc<VertexShares>>,
     /// The picture from a camera that was made last; belongs to `world`.
     pub image: Option<Arc<CameraImage>>,
     /// The way of the picked photon.

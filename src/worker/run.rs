@@ -1,13 +1,13 @@
 //! A method with a clock.
 
-use super::workshop::{PhotonMethod, PhotonProgress};
+use super::workshop::{OcclusionMethod, PhotonMethod, PhotonProgress};
 use crate::cancel::Cancel;
 use crate::effects::Effect;
 use crate::mesh::Patch;
 use crate::methods::radiosity::{self, FullMatrix};
 use crate::methods::transport::Transport;
 use crate::methods::{Method, PhotonSettings, Settings, Step};
-use crate::solution::{Photon, PhotonSolution, Progress, Solution};
+use crate::solution::{Photon, PhotonSolution, Progress, Solution, VertexShares};
 use crate::world::World;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -122,6 +122,37 @@ impl<P: PhotonMethod> PhotonRun<P> {
     /// What the photons brought, with the time that it took.
     pub fn solution(&mut self) -> PhotonSolution {
         PhotonSolution { elapsed: self.elapsed, ..self.method.solution() }
+    }
+}
+
+/// Ambient occlusion on the mesh at work, and the time that its steps took.
+pub struct OcclusionRun {
+    method: Box<dyn OcclusionMethod>,
+    elapsed: Duration,
+}
+
+impl OcclusionRun {
+    /// A run of this method, before its first step.
+    pub fn of(method: Box<dyn OcclusionMethod>) -> Self {
+        Self { method, elapsed: Duration::ZERO }
+    }
+
+    /// One step on the clock.
+    pub fn step(&mut self, cancel: &Cancel) -> Step {
+        let start = Instant::now();
+        let step = self.method.step(cancel);
+        self.elapsed += start.elapsed();
+        step
+    }
+
+    /// Takes new settings over; false if they need a new run.
+    pub fn configure(&mut self, settings: &Settings) -> bool {
+        self.method.configure(settings)
+    }
+
+    /// What is known, with the time that it took.
+    pub fn solution(&self) -> VertexShares {
+        VertexShares { elapsed: self.elapsed, ..self.method.solution() }
     }
 }
 

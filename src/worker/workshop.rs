@@ -1,10 +1,11 @@
-//! What the thread works with: radiosity, photons and pictures from a camera, each behind a few calls.
+//! What the thread works with: radiosity, photons, ambient occlusion on the mesh and pictures from a camera, each behind a
+//! few calls.
 
 use super::Refused;
 use crate::camera::Camera;
 use crate::cancel::Cancel;
 use crate::methods::{Method, Settings, Step};
-use crate::solution::{CameraImage, CameraView, Gathered, Photon, PhotonSolution, PhotonTrail, Solution};
+use crate::solution::{CameraImage, CameraView, Gathered, Photon, PhotonSolution, PhotonTrail, Solution, VertexShares};
 use crate::world::World;
 use glam::Vec3A;
 use std::sync::Arc;
@@ -25,6 +26,9 @@ pub trait Workshop: Send + 'static {
     /// # Errors
     /// If it needs more memory than there is.
     fn photons(&mut self, world: &Arc<World>, settings: &Settings) -> Result<Self::Photons, Refused>;
+
+    /// Ambient occlusion on the mesh before its first step.
+    fn occlusion(&mut self, world: &Arc<World>, settings: &Settings) -> Box<dyn OcclusionMethod>;
 
     /// A picture before its first step. The light that its view needs is there.
     fn image(&mut self, lights: Lights<'_, Self::Photons>, shot: &CameraShot, settings: &Settings) -> Self::Image;
@@ -79,6 +83,18 @@ pub trait PhotonMethod: Send {
 
     /// What the estimate at a point is made of, on the side that the unit `normal` faces.
     fn gathered(&mut self, point: Vec3A, normal: Vec3A) -> Option<Gathered>;
+}
+
+/// Ambient occlusion on the mesh at work.
+pub trait OcclusionMethod: Send {
+    /// Does one bounded piece of work, all of it or nothing.
+    fn step(&mut self, cancel: &Cancel) -> Step;
+
+    /// Takes new settings over and goes on; false, and nothing changes, if they need a fresh start.
+    fn configure(&mut self, settings: &Settings) -> bool;
+
+    /// Copies out what is known so far. Its `elapsed` is zero: whoever steps the method holds the clock.
+    fn solution(&self) -> VertexShares;
 }
 
 /// A picture in the making.

@@ -6,6 +6,7 @@ mod emitters;
 mod exposure;
 mod occluders;
 mod planes;
+mod shells;
 mod sides;
 mod surface;
 mod viewpoint;
@@ -73,7 +74,8 @@ impl From<Cancelled> for WorldError {
 }
 
 impl World {
-    /// Mends the emitters, builds the tracer, finds out which sides light can reach, and cuts these into elements.
+    /// Mends the emitters, builds the tracer, finds out which sides light can reach, and cuts these into elements. Where
+    /// nothing emits, these are the sides that the eye or the light of the sky can reach.
     ///
     /// # Errors
     /// If cancelled, or if the element size is not a positive number or too fine for memory.
@@ -87,13 +89,14 @@ impl World {
         let surfaces = Surfaces::new(&scene);
         let bounds = Bounds::of(surfaces.corners());
         let start = scene.viewpoint.unwrap_or_else(|| viewpoint::most_open(&bounds, &tracer));
-        let Reach { is_reached, escape_share, rooms } = sides::explore(&scene, &surfaces, &tracer, start.eye, cancel)?;
+        let Reach { is_reached, is_walked, escape_share, rooms } =
+            sides::explore(&scene, &surfaces, &tracer, start.eye, cancel)?;
         let hidden = emitters::hidden(&scene, &surfaces, &tracer);
         let unseen_emitters = hidden.len();
         findings.extend(hidden);
         scene.findings.extend::<Vec<Finding>>(findings);
         let viewpoint =
-            scene.viewpoint.unwrap_or_else(|| viewpoint::choose(&bounds, &surfaces, &tracer, &is_reached, &rooms));
+            scene.viewpoint.unwrap_or_else(|| viewpoint::choose(&bounds, &surfaces, &tracer, &is_walked, &rooms));
         let tolerance = tracer.offset().min(TOUCHING * bounds.radius());
         let has_occluders = occluders::may_exist(&surfaces, &is_reached, tolerance.into());
         let census = Census::take(&scene, &surfaces, &is_reached, unseen_emitters, tolerance.into());

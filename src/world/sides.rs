@@ -5,19 +5,21 @@
 //! reached if a walk of light from an emitter touches it, or if a walk that starts on it can be connected with a walk
 //! from an emitter by a free line of sight: no chain of guesses, every step is a ray, so nothing that is shut off is
 //! ever taken for reached. Both kinds of walk together find what is small or hard to get into.
+//!
+//! Where nothing emits, walks start from what the eye sees, and the even light of the sky may come from anywhere: a shell
+//! from which a walk leaves the scene is reached, too.
 
 use super::TOUCHING;
+use super::shells::shells;
 use super::surface::{Place, Surfaces};
 use crate::cancel::{Cancel, Cancelled};
 use crate::math::bounds::Bounds;
 use crate::math::random::Stream;
-use crate::math::warp::frame;
 use crate::mesh::side_index;
 use crate::scene::Scene;
 use crate::tracer::{Ray, Tracer};
 use glam::{Vec3, Vec3A};
 use rayon::prelude::*;
-use std::collections::HashMap;
 
 /// Walks of light from emitters, and the bounces of each. Every emitter gets a walk; where that makes more of them, each
 /// is shorter.
@@ -34,11 +36,14 @@ const LOOKS: usize = 64;
 const LIGHT_PASS: u64 = 1;
 const SHELL_PASS: u64 = 2;
 const LOOK_PASS: u64 = 3;
+const SKY_PASS: u64 = 5;
 
 /// What the exploration found out.
 pub struct Reach {
     /// For each side, as in [`crate::mesh::Mesh::sides`].
     pub is_reached: Vec<bool>,
+    /// Those of them which walks reached: worth looking at. Others are only open to the sky, as the outside of a room.
+    pub is_walked: Vec<bool>,
     /// Share of the steps of light walks that left the scene, in [0, 1].
     pub escape_share: f64,
     /// Places on surfaces that light reaches, to look for a viewpoint between them.
@@ -80,23 +85,35 @@ pub fn explore(
     for (&shell, found) in dark.iter().zip(found) {
         is_shell_reached[shell] = found;
     }
-    let near = TOUCHING * Bounds::of(surfaces.corners()).radius();
-    let mut is_reached: Vec<bool> = (0..2 * surfaces.len())
-        .into_par_iter()
-        .map(|side| {
-            is_shell_reached[shells.of_side[side]]
-                && !cancel.is_requested()
-                && has_room(side, near, surfaces, tracer)
-                && (is_touched[side] || looks_at_something(side, &light, surfaces, tracer))
+    let is_shell_open: Vec<bool> = members
+        .par_iter()
+        .enumerate()
+        .map(|(shell, sides)| {
+            emitters.is_empty() && !cancel.is_requested() && finds_sky(sides, shell, walks_each, surfaces, tracer)
         })
         .collect();
+    let near = TOUCHING * Bounds::of(surfaces.corners()).radius();
+    let (mut is_walked, mut is_reached): (Vec<bool>, Vec<bool>) = (0..2 * surfaces.len())
+        .into_par_iter()
+        .map(|side| {
+            let shell = shells.of_side[side];
+            let may_be_reached = is_shell_reached[shell] || is_shell_open[shell];
+            if !may_be_reached || cancel.is_requested() || !has_room(side, near, surfaces, tracer) {
+                return (false, false);
+            }
+            let is_walked =
+                is_shell_reached[shell] && (is_touched[side] || looks_at_something(side, &light, surfaces, tracer));
+            (is_walked, is_walked || is_shell_open[shell])
+        })
+        .unzip();
     for &side in &emitters {
+        is_walked[side] = true;
         is_reached[side] = true;
     }
     if cancel.is_requested() {
         return Err(Cancelled);
     }
-    Ok(Reach { is_reached, escape_share: escape_share(&walks), rooms: light })
+    Ok(Reach { is_reached, is_walked, escape_share: escape_share(&walks), rooms: light })
 }
 
 /// Fronts of emitters.
@@ -182,6 +199,21 @@ fn finds_light(
     })
 }
 
+/// Whether a walk from one of these sides leaves the scene: then the light of the sky finds the same way in.
+fn finds_sky(sides: &[usize], shell: usize, walks: usize, surfaces: &Surfaces, tracer: &Tracer) -> bool {
+    (0..walks).any(|walk| {
+        let mut stream = Stream::new(walk as u64, SKY_PASS, shell as u64);
+        let mut place = surfaces.place(sides[walk * sides.len() / walks], tracer, &mut stream);
+        for _ in 0..SHELL_BOUNCES {
+            match surfaces.bounce(&place, tracer, &mut stream) {
+                Some(next) => place = next,
+                None => return true,
+            }
+        }
+        false
+    })
+}
+
 /// Whether a place has a free line of sight to a random one of those where light has been.
 fn sees_light(place: &Place, light: &[Place], tracer: &Tracer, stream: &mut Stream) -> bool {
     let count = light.len() as u64;
@@ -207,85 +239,4 @@ fn has_room(side: usize, near: f32, surfaces: &Surfaces, tracer: &Tracer) -> boo
         let ahead = tracer.closest(&Ray { origin: place.point, direction: place.normal });
         ahead.is_none_or(|hit| hit.distance > near)
     })
-}
-
-/// Sides joined across edges.
-struct Shells {
-    of_side: Vec<usize>,
-    count: usize,
-}
-
-/// Joins sides that meet at an edge with nothing between them. Where more than two polygons share an edge, they are
-/// taken in their order round it. An edge of one polygon alone joins nothing: light would have to turn round it.
-fn shells(scene: &Scene, surfaces: &Surfaces) -> Shells {
-    let mut joined = UnionFind((0..2 * surfaces.len()).collect());
-    let mut edges: HashMap<(u32, u32), Vec<EdgeUse>> = HashMap::new();
-    for (index, polygon) in scene.polygons.iter().enumerate() {
-        let corners = polygon.corners();
-        for (i, &from) in corners.iter().enumerate() {
-            let to = corners[(i + 1) % corners.len()];
-            let use_ = EdgeUse { polygon: index as u32, runs_up: from < to };
-            edges.entry((from.min(to), from.max(to))).or_default().push(use_);
-        }
-    }
-    for ((from, to), uses) in &mut edges {
-        let axis = Vec3A::from(scene.positions[*to as usize] - scene.positions[*from as usize]).normalize_or_zero();
-        sort_round(axis, uses, surfaces);
-        for (i, this) in uses.iter().enumerate().filter(|_| uses.len() > 1) {
-            let next = &uses[(i + 1) % uses.len()];
-            joined.join(side_index(this.polygon, this.runs_up), side_index(next.polygon, !next.runs_up));
-        }
-    }
-    joined.into_shells()
-}
-
-/// A polygon at an edge, and whether its corners run along the edge from the lower to the higher index.
-struct EdgeUse {
-    polygon: u32,
-    runs_up: bool,
-}
-
-/// Sorts the polygons at an edge by their angle round it. The front of a polygon that runs up looks towards growing
-/// angles, its back towards falling ones; of one that runs down it is the other way round.
-fn sort_round(axis: Vec3A, uses: &mut [EdgeUse], surfaces: &Surfaces) {
-    if uses.len() < 3 {
-        return;
-    }
-    let round = frame(axis);
-    let angle = |edge_use: &EdgeUse| {
-        let normal = surfaces.normal(side_index(edge_use.polygon, edge_use.runs_up));
-        let outward = normal.cross(axis);
-        outward.dot(round.y_axis).atan2(outward.dot(round.x_axis))
-    };
-    uses.sort_by(|a, b| angle(a).total_cmp(&angle(b)));
-}
-
-/// Disjoint sets with path halving (Tarjan, van Leeuwen 1984).
-struct UnionFind(Vec<usize>);
-
-impl UnionFind {
-    fn root(&mut self, mut item: usize) -> usize {
-        while self.0[item] != item {
-            self.0[item] = self.0[self.0[item]];
-            item = self.0[item];
-        }
-        item
-    }
-
-    /// The smaller root stays, so the result does not depend on the order of joins.
-    fn join(&mut self, a: usize, b: usize) {
-        let (a, b) = (self.root(a), self.root(b));
-        self.0[a.max(b)] = a.min(b);
-    }
-
-    fn into_shells(mut self) -> Shells {
-        let mut numbers = HashMap::new();
-        let of_side = (0..self.0.len()).map(|side| {
-            let root = self.root(side);
-            let next = numbers.len();
-            *numbers.entry(root).or_insert(next)
-        });
-        let of_side: Vec<usize> = of_side.collect();
-        Shells { of_side, count: numbers.len() }
-    }
 }

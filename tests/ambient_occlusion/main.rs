@@ -4,6 +4,7 @@ mod pictures;
 mod points;
 #[path = "../common/shapes.rs"]
 mod shapes;
+mod vertices;
 
 use glam::{Vec3, Vec3A};
 use lightwell::cancel::Cancel;

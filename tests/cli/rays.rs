@@ -1,7 +1,7 @@
 //! `lightwell render` of photons and by rays from the camera, and `lightwell series`. Needs a graphics adapter.
 
 use crate::rendering::{can_draw, pixels, radiances, texts};
-use crate::{assert_contains, files, folder, json, keys, number, printed, refusal};
+use crate::{assert_contains, files, folder, json, keys, number, printed, refusal, write_dark_scene};
 
 const SMALL: &str = "cornell-box --element 0.25 --size 32x24";
 const PHOTONS: &str = "--photons 20000 --caustic-photons 1000";
@@ -67,6 +67,35 @@ fn ambient_occlusion_tells_how_it_was_made_and_needs_no_lamp() {
         let name = option.split(' ').next().expect("a name");
         let refused = refusal(&folder, &format!("render {SMALL} -o a.png --view {view} {option}"), 2);
         assert_contains(&refused, &[&format!("{name} is not for the view `{view}`")]);
+    }
+}
+
+#[test]
+fn ambient_occlusion_on_the_mesh_is_drawn_without_a_lamp() {
+    if !can_draw() {
+        return;
+    }
+    let folder = folder();
+    write_dark_scene(&folder);
+    let options = "-o mesh.png --view ambient-occlusion-vertices --ao-rays 8 --samples 3 --size 64x48 --json";
+    let report = json(&folder, &format!("render dark.obj {options}"));
+    assert_eq!(report["method"], "ambient-occlusion-vertices");
+    // Both sides of the floor are open to the sky. A vertex shares its rays out to the elements round it, each of which gets
+    // one at least.
+    let vertices = number(&report["vertices"]);
+    assert!(vertices > 1000.0 && number(&report["picture"]["rounds"]) == 3.0, "{report}");
+    let rays = number(&report["picture"]["rays"]);
+    assert!((24.0 * vertices..27.0 * vertices).contains(&rays), "{report}");
+    let texts = texts(&folder, "mesh.png");
+    for (name, value) in [("Ambient rays", "8"), ("Rounds", "3"), ("View", "ambient-occlusion-vertices")] {
+        assert_eq!(texts.get(name).map(String::as_str), Some(value), "{name} in {texts:?}");
+    }
+    assert!(!texts.contains_key("Exposure"));
+    for option in ["--steps 3", "--converge 1", "--paths LDE", "--photons 5", "--light-rays 5"] {
+        let name = option.split(' ').next().expect("a name");
+        let refused =
+            refusal(&folder, &format!("render dark.obj -o a.png --view ambient-occlusion-vertices {option}"), 2);
+        assert_contains(&refused, &[&format!("{name} is not for the view `ambient-occlusion-vertices`")]);
     }
 }
 

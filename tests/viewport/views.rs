@@ -1,13 +1,13 @@
 //! What each view shows: every pixel against the numbers that it stands for.
 
 use crate::{
-    HALF_ROUNDING, build, build_in_patches, element_at, frame, gpu, light, motley, pixel, pixels, plane_scene,
-    solution, square,
+    HALF_ROUNDING, SNAP, build, build_in_patches, element_at, frame, gpu, light, motley, on_plane, pixel, pixels,
+    plane_scene, solution, square,
 };
 use glam::Vec3;
 use lightwell::choice::Choice;
 use lightwell::math::rgb::Rgb;
-use lightwell::solution::{ItemBuffer, Picked, Solution};
+use lightwell::solution::{ItemBuffer, Picked, Solution, VertexShares};
 use lightwell::viewport::{Frame, Legend, Light, Picture, ToneCurve, View, colour_map, render_picture};
 use lightwell::world::World;
 use std::f32::consts::PI;
@@ -128,6 +128,34 @@ fn form_factors_have_the_colours_of_their_legend_whatever_the_exposure() {
 }
 
 #[test]
+fn shares_of_vertices_are_greys_between_them_whatever_the_exposure() {
+    let Some(gpu) = gpu() else { return };
+    let world = square();
+    // Linear over the whole square, so that it is known between vertices, too.
+    let share = |x: f32, y: f32| 0.5 + 0.2 * x + 0.1 * y;
+    let shares = world.mesh.vertices.iter().map(|vertex| share(vertex.x, vertex.y)).collect();
+    let occlusion = Some(Arc::new(VertexShares { shares: Arc::new(shares), rounds: 1, ..VertexShares::default() }));
+    let light = Light { occlusion, ..light(&solution(&world, motley)) };
+    let view = View::OcclusionVertices;
+    assert!(view.missing(&light).is_none() && view.missing(&Light::default()).is_some() && view.is_false_colour());
+    let render = |exposure_ev| {
+        let frame = Frame { exposure_ev, show_shooter: true, ..frame(&world, view) };
+        render_picture(&gpu, &world, &light, &frame, 4).expect("a picture")
+    };
+    let picture = render(0.0);
+    assert!(picture == render(5.0));
+    let shown: Vec<_> = pixels().filter(|&(x, y)| element_at(&world, x, y).is_some()).collect();
+    assert!(shown.len() > 1500);
+    for (x, y) in shown {
+        let [r, g, b, _] = pixel(&picture, x, y);
+        // The middle of a pixel is where its four samples are on average, and edges may be rounded by some of a pixel.
+        let (at, size) = on_plane(x, y);
+        let tolerance = HALF_ROUNDING + 0.3 * SNAP * size;
+        assert!(r == g && g == b && (r - share(at.x, at.y)).abs() < tolerance, "{at}: {r}");
+    }
+}
+
+#[test]
 fn the_picked_patch_is_outlined_and_the_shooter_is_not() {
     let Some(gpu) = gpu() else { return };
     let world = tiles();
@@ -158,7 +186,7 @@ fn a_view_without_its_data_says_so_and_is_plain() {
     };
     for &view in View::ALL {
         let is_shown = |light: &Light| view.missing(light).is_none();
-        let is_radiosity = !view.shows_photons() && !matches!(view, View::Camera(_));
+        let is_radiosity = !view.shows_photons() && !matches!(view, View::Camera(_) | View::OcclusionVertices);
         assert!(!is_shown(&Light::default()), "{view:?}");
         assert_eq!(is_shown(&without), is_radiosity && !matches!(view, View::Bounces | View::FormFactors), "{view:?}");
         assert_eq!(is_shown(&with), is_radiosity, "{view:?}");

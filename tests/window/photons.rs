@@ -65,6 +65,7 @@ fn settings_are_those_of_the_view() {
     expect(camera(CameraView::FinalGather), &[&photon_map[..], &["Gather rays", "Shadow rays"]].concat());
     let occlusion = ["Samples", "AO rays", "Fall-off", "Distance"];
     expect(camera(CameraView::AmbientOcclusion), &occlusion);
+    expect(View::OcclusionVertices, &["AO rays", "Fall-off", "Distance"]);
     expect(camera(CameraView::Diffuse), &["Samples", "Shadow rays"]);
     expect(camera(CameraView::DiffuseAmbient), &[&occlusion[..], &["Shadow rays"]].concat());
 }

@@ -21,7 +21,7 @@ use lightwell::methods::{Settings, Solver};
 use lightwell::scene::{Finding, FindingKind, Scene, Severity, Viewpoint};
 use lightwell::solution::{
     CameraImage, CameraView, Closure, Counters, Energy, Gathered, PhotonCounters, PhotonEnergy, PhotonSolution,
-    PhotonTrail, Progress, Scattering, Solution, TrailPlace,
+    PhotonTrail, Progress, Scattering, Solution, TrailPlace, VertexShares,
 };
 use lightwell::viewport::diagram::Swatch;
 use lightwell::viewport::{Legend, View};
@@ -40,6 +40,7 @@ pub struct Stage {
     pub effects: Vec<Entry>,
     pub solution: Option<Solution>,
     pub photons: Option<PhotonSolution>,
+    pub occlusion: Option<VertexShares>,
     pub image: Option<CameraImage>,
     pub trail: Option<PhotonTrail>,
     pub gathered: Option<Gathered>,
@@ -93,6 +94,7 @@ impl Default for Stage {
             effects: effects(),
             solution: Some(solution()),
             photons: None,
+            occlusion: None,
             image: None,
             trail: None,
             gathered: None,
@@ -148,6 +150,7 @@ impl Stage {
             }),
             solution: self.solution.as_ref(),
             photons: self.photons.as_ref(),
+            occlusion: self.occlusion.as_ref(),
             image: self.image.as_ref(),
             trail: self.trail.as_ref(),
             gathered: self.gathered.as_ref(),

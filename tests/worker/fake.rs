@@ -6,9 +6,11 @@ use lightwell::effects::Bill;
 use lightwell::math::rgb::Rgb;
 use lightwell::methods::{Method, PhotonSettings, Settings, Step};
 use lightwell::solution::{
-    CameraImage, ElementLight, Gathered, Path, Photon, PhotonSolution, PhotonTrail, Solution, TrailPlace,
+    CameraImage, ElementLight, Gathered, Path, Photon, PhotonSolution, PhotonTrail, Solution, TrailPlace, VertexShares,
 };
-use lightwell::worker::{CameraShot, ImageMethod, Lights, PhotonMethod, PhotonProgress, Refused, Worker, Workshop};
+use lightwell::worker::{
+    CameraShot, ImageMethod, Lights, OcclusionMethod, PhotonMethod, PhotonProgress, Refused, Worker, Workshop,
+};
 use lightwell::world::World;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -22,6 +24,7 @@ type StartMethod = dyn Fn(Arc<World>, &Settings) -> Box<dyn Method> + Send;
 pub struct Fakes {
     radiosity: Box<StartMethod>,
     photons: Arc<Work>,
+    occlusion: Arc<Work>,
     image: Arc<Work>,
     counts: Arc<Counts>,
 }
@@ -31,11 +34,13 @@ pub struct Fakes {
 pub struct Counts {
     pub radiosity_starts: AtomicU64,
     pub photon_starts: AtomicU64,
+    pub occlusion_starts: AtomicU64,
     pub image_starts: AtomicU64,
     /// Images that were begun with the light of another one.
     pub image_moves: AtomicU64,
     pub radiosity_steps: AtomicU64,
     pub photon_steps: AtomicU64,
+    pub occlusion_steps: AtomicU64,
     pub image_steps: AtomicU64,
     pub cancelled_images: AtomicU64,
 }
@@ -69,6 +74,10 @@ impl Fakes {
         Self { photons: Arc::new(work), ..self }
     }
 
+    pub fn occlusion(self, work: impl Fn(u64, &Cancel) -> Step + Send + Sync + 'static) -> Self {
+        Self { occlusion: Arc::new(work), ..self }
+    }
+
     pub fn image(self, work: impl Fn(u64, &Cancel) -> Step + Send + Sync + 'static) -> Self {
         Self { image: Arc::new(work), ..self }
     }
@@ -87,6 +96,7 @@ impl Default for Fakes {
         let fakes = Self {
             radiosity: Box::new(nothing),
             photons: Arc::new(short_step),
+            occlusion: Arc::new(short_step),
             image: Arc::new(short_step),
             counts: Arc::default(),
         };
@@ -111,6 +121,12 @@ impl Workshop for Fakes {
         self.counts.photon_starts.fetch_add(1, Ordering::SeqCst);
         let (work, counts) = (self.photons.clone(), self.counts.clone());
         Ok(FakePhotons { work, counts, steps: 0, batches: 0, passes: 0, settings: *settings })
+    }
+
+    fn occlusion(&mut self, _: &Arc<World>, settings: &Settings) -> Box<dyn OcclusionMethod> {
+        self.counts.occlusion_starts.fetch_add(1, Ordering::SeqCst);
+        let (work, counts) = (self.occlusion.clone(), self.counts.clone());
+        Box::new(FakeOcclusion { work, counts, rounds: 0, settings: *settings })
     }
 
     fn image(&mut self, lights: Lights<'_, FakePhotons>, shot: &CameraShot, _: &Settings) -> FakeImage {
@@ -230,6 +246,38 @@ impl PhotonMethod for FakePhotons {
         assert!(point.x < 1e6, "that is far away");
         let used = (0..self.batches as u32).collect();
         Some(Gathered { point: point.into(), normal: normal.into(), used, ..Gathered::default() })
+    }
+}
+
+/// A round a step, as many as samples are wanted.
+struct FakeOcclusion {
+    work: Arc<Work>,
+    counts: Arc<Counts>,
+    rounds: u32,
+    settings: Settings,
+}
+
+impl OcclusionMethod for FakeOcclusion {
+    fn step(&mut self, cancel: &Cancel) -> Step {
+        if self.rounds >= self.settings.image.samples {
+            return Step::Converged;
+        }
+        let step = (self.work)(self.rounds.into(), cancel);
+        Counts::add(&self.counts.occlusion_steps, step, Step::Advanced);
+        self.rounds += u32::from(step == Step::Advanced);
+        step
+    }
+
+    fn configure(&mut self, settings: &Settings) -> bool {
+        let is_same = self.settings.seed == settings.seed && self.settings.occlusion == settings.occlusion;
+        if is_same {
+            self.settings = *settings;
+        }
+        is_same
+    }
+
+    fn solution(&self) -> VertexShares {
+        VertexShares { rounds: self.rounds, ..VertexShares::default() }
     }
 }
 

@@ -4,6 +4,7 @@ mod commands;
 mod fake;
 mod interruption;
 mod lights;
+mod occlusion;
 mod pictures;
 mod publishing;
 mod real;

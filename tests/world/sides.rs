@@ -184,3 +184,29 @@ fn nothing_depends_on_the_unit_of_length() {
         assert!(got.2.len() == expected.2.len() && differing == 0, "{scale}: {differing}");
     }
 }
+
+#[test]
+fn without_an_emitter_what_is_open_to_the_sky_is_meshed_and_the_inside_of_bodies_is_not() {
+    let (low, high) = (Vec3::new(-1.0, 0.0, -1.0), Vec3::new(1.0, 2.0, 1.0));
+    let (box_low, box_high) = (Vec3::new(-0.3, 0.2, -0.3), Vec3::new(0.3, 0.9, 0.3));
+    let middle = 0.5 * (box_low + box_high);
+    // A room that is open to one side is lit within and without, and looked at through that side. What is shut into a box
+    // in it is not lit.
+    let obj = Obj::new().object("room", "white").room_open_to(Vec3::Z, low, high);
+    let obj = obj.object("box", "white").block(box_low, box_high);
+    let world = build(obj.object("core", "white").block(0.5 * (box_low + middle), 0.5 * (box_high + middle)).open());
+    assert_meshed(&world, "box", |side| !toward(middle)(side));
+    assert_meshed(&world, "core", |_| false);
+    assert_meshed(&world, "room", |_| true);
+    assert!(world.viewpoint.eye.z > 1.0, "{:?}", world.viewpoint);
+    assert_eq!(world.census.unreached(), 6);
+    // Both sides of an open plane, and the outside of a body.
+    let world = build(Obj::new().object("floor", "white").level([-5.0, 5.0], 0.0, [-5.0, 5.0]).open());
+    assert_meshed(&world, "floor", |_| true);
+    let world = build(Obj::new().object("box", "white").block(low, high).open());
+    assert_meshed(&world, "box", |side| !toward(Vec3::Y)(side));
+    // With an emitter, its light alone counts.
+    let obj = Obj::new().object("room", "white").room(low, high).object("lamp", "lamp");
+    let world = build(obj.level_down([-0.2, 0.2], 1.9, [-0.2, 0.2]).open());
+    assert_meshed(&world, "room", toward(Vec3::Y));
+}

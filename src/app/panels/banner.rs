@@ -4,8 +4,9 @@ use super::effects;
 use super::icons::Icon;
 use super::widgets::primary_button;
 use crate::app::action::Action;
-use crate::app::model::Model;
+use crate::app::model::{Look, Model};
 use crate::app::theme::{Palette, UNIT};
+use crate::app::views::ViewGroup;
 use crate::choice::Choice;
 use crate::effects::Effect;
 use crate::methods::{Settings, Solver};
@@ -18,7 +19,8 @@ use std::borrow::Cow;
 pub struct Banner<'a> {
     pub message: Cow<'a, str>,
     is_error: bool,
-    remedy: Option<Remedy>,
+    /// The best one first.
+    remedies: Vec<Remedy>,
 }
 
 /// A button that helps.
@@ -32,32 +34,45 @@ pub fn all<'a>(model: &Model<'a>) -> Vec<Banner<'a>> {
     let crash = (*model.phase == Phase::Crashed).then(|| Banner {
         message: model.error.unwrap_or("The solver stopped because of a fault in the program.").into(),
         is_error: true,
-        remedy: Some(Remedy {
+        remedies: vec![Remedy {
             name: "Restart solver",
             hover: "Starts afresh on the same scene; the light that was computed is lost",
             action: Action::Send(Command::Reset),
-        }),
+        }],
     });
     let error = model.error.filter(|_| crash.is_none()).map(|message| Banner {
         message: message.into(),
         is_error: true,
-        remedy: Some(Remedy { name: "Dismiss", hover: "Takes this message away", action: Action::DismissError }),
-    });
-    let dark = model.scene.filter(|scene| scene.is_dark()).map(|_| Banner {
-        message: "Nothing in this scene emits light, so there is nothing to see.".into(),
-        is_error: false,
-        remedy: Some(Remedy {
-            name: "Add a ceiling light",
-            hover: "Adds a rectangle of light below the ceiling, which is not in the file",
-            action: Action::Send(Command::AddCeilingLight),
-        }),
+        remedies: vec![Remedy { name: "Dismiss", hover: "Takes this message away", action: Action::DismissError }],
     });
     let missing = model.missing.filter(|_| model.is_stuck()).map(|message| Banner {
         message: message.into(),
         is_error: false,
-        remedy: remedy_for_view(model),
+        remedies: remedy_for_view(model).into_iter().collect(),
     });
-    [crash, error, dark, missing, left_out(model)].into_iter().flatten().collect()
+    [crash, error, dark(model), missing, left_out(model)].into_iter().flatten().collect()
+}
+
+/// Nothing emits. Views of ambient occlusion show such a scene as well as any other.
+fn dark<'a>(model: &Model) -> Option<Banner<'a>> {
+    let is_seen = ViewGroup::of(model.look.view) == ViewGroup::Occlusion;
+    model.scene.filter(|scene| scene.is_dark() && !is_seen).map(|_| Banner {
+        message: "Nothing in this scene emits light. Ambient occlusion shows it in an even light from everywhere."
+            .into(),
+        is_error: false,
+        remedies: vec![
+            Remedy {
+                name: "Show ambient occlusion",
+                hover: "Opens the views that need no emitter",
+                action: Action::SetLook(Look { view: ViewGroup::Occlusion.first(), ..model.look }),
+            },
+            Remedy {
+                name: "Add a ceiling light",
+                hover: "Adds a rectangle of light below the ceiling, which is not in the file",
+                action: Action::Send(Command::AddCeilingLight),
+            },
+        ],
+    })
 }
 
 /// Effects that the scene calls for and somebody has switched off.
@@ -71,11 +86,11 @@ fn left_out<'a>(model: &Model) -> Option<Banner<'a>> {
     Some(Banner {
         message: format!("Left out: {}. {loss}", names.join(", ").to_lowercase()).into(),
         is_error: false,
-        remedy: Some(Remedy {
+        remedies: vec![Remedy {
             name: "As planned",
             hover: "Simulates what the scene calls for, and nothing else",
             action: effects::as_planned(model.settings),
-        }),
+        }],
     })
 }
 
@@ -105,6 +120,7 @@ fn remedy_for_view(model: &Model) -> Option<Remedy> {
             name: "Run",
             hover: match model.light() {
                 Some(LightKind::Photons) => "Emits photons until all that are wanted are there",
+                Some(LightKind::Occlusion) => "Looks for open sky from every vertex, until all rays are there",
                 _ => "Spreads light until the stop limit is reached",
             },
             action: Action::Send(Command::Run),
@@ -119,8 +135,8 @@ pub fn show(ui: &mut Ui, banner: &Banner, actions: &mut Vec<Action>) {
     ui.horizontal(|ui| {
         Icon::Warning.show(ui, color);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            if let Some(remedy) = &banner.remedy {
-                let is_plain = remedy.action == Action::DismissError;
+            for (place, remedy) in banner.remedies.iter().enumerate() {
+                let is_plain = place > 0 || remedy.action == Action::DismissError;
                 let button = if is_plain { Button::new(remedy.name) } else { primary_button(ui, remedy.name) };
                 if ui.add(button).on_hover_text(remedy.hover).clicked() {
                     actions.push(remedy.action.clone());

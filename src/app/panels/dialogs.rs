@@ -140,15 +140,8 @@ fn path(ui: &mut Ui, purpose: PathPurpose, text: &str, actions: &mut Vec<Action>
 
 fn keys(ui: &mut Ui, actions: &mut Vec<Action>) {
     heading(ui, "Keys");
-    // One column would be higher than the smallest window.
-    let halves = BINDINGS.split_at(BINDINGS.len().div_ceil(2));
-    ui.horizontal_top(|ui| {
-        for (id, half) in [("left keys", halves.0), ("right keys", halves.1)] {
-            let rows = half.iter().map(|binding| (ui.ctx().format_shortcut(&binding.shortcut), binding.purpose));
-            table(ui, id, rows.collect::<Vec<_>>());
-            ui.add_space(4.0 * UNIT);
-        }
-    });
+    let rows = BINDINGS.iter().map(|binding| (ui.ctx().format_shortcut(&binding.shortcut), binding.purpose));
+    two_columns(ui, "keys", &rows.collect::<Vec<_>>());
     heading(ui, "Mouse in the viewport");
     let mouse = [
         ("Drag", "Turn around the scene"),
@@ -158,16 +151,27 @@ fn keys(ui: &mut Ui, actions: &mut Vec<Action>) {
         ("Shift+click", "Pick a point, to see the photons of its estimate"),
         ("Double click", "Fit the scene into the view"),
     ];
-    table(ui, "mouse", mouse.map(|(gesture, purpose)| (gesture.to_owned(), purpose)));
+    two_columns(ui, "mouse", &mouse.map(|(gesture, purpose)| (gesture.to_owned(), purpose)));
     close_button(ui, actions);
 }
 
-fn table(ui: &mut Ui, id: &str, rows: impl IntoIterator<Item = (String, &'static str)>) {
+/// One column would be higher than the smallest window.
+fn two_columns(ui: &mut Ui, id: &str, rows: &[(String, &'static str)]) {
+    let halves = rows.split_at(rows.len().div_ceil(2));
+    ui.horizontal_top(|ui| {
+        for (side, half) in [("left", halves.0), ("right", halves.1)] {
+            table(ui, (id, side), half);
+            ui.add_space(4.0 * UNIT);
+        }
+    });
+}
+
+fn table(ui: &mut Ui, id: impl egui::AsIdSalt, rows: &[(String, &'static str)]) {
     ui.spacing_mut().interact_size.y = 4.0 * UNIT;
     Grid::new(id).num_columns(2).spacing([6.0 * UNIT, UNIT]).show(ui, |ui| {
         for (left, right) in rows {
             ui.label(RichText::new(left).strong());
-            ui.label(right);
+            ui.label(*right);
             ui.end_row();
         }
     });

@@ -8,6 +8,7 @@ use crate::app::views::ViewGroup;
 use crate::choice::Choice;
 use crate::cli::picture::Format;
 use crate::scene::BUILTINS;
+use crate::worker::Command;
 use egui::accesskit::Role;
 use egui::{Atom, Button, IdSalt, KeyboardShortcut, MenuBar, Response, Ui, WidgetInfo, vec2};
 
@@ -37,6 +38,9 @@ fn file_menu(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
                 }
             }
         });
+    });
+    ui.add_enabled_ui(model.scene.is_some_and(|scene| scene.is_dark()), |ui| {
+        item(ui, "Add a ceiling light", None, || actions.push(Action::Send(Command::AddCeilingLight)));
     });
     ui.separator();
     ui.add_enabled_ui(model.scene.is_some(), |ui| {

@@ -4,7 +4,7 @@ use crate::app::format;
 use crate::app::model::Model;
 use crate::app::theme::{Palette, UNIT};
 use crate::math::rgb::Rgb64;
-use crate::solution::{CameraImage, PhotonSolution, Solution};
+use crate::solution::{CameraImage, PhotonSolution, Solution, VertexShares};
 use crate::worker::{LightKind, Phase};
 use egui::accesskit::Role;
 use egui::{Align2, Color32, FontId, Painter, Rect, Sense, Ui, WidgetInfo, pos2, vec2};
@@ -38,12 +38,16 @@ fn progress(model: &Model, palette: Palette) -> Progress {
         return Progress { text: "Loading".to_owned(), ..empty(palette) };
     }
     let image = model.image.filter(|_| !model.is_running() || model.light().is_none());
-    match (image, model.light(), model.solution, model.photons) {
-        (Some(image), ..) => of_image(image, model.settings.image.samples, palette),
-        (None, Some(LightKind::Radiosity), Some(solution), _) => of_radiosity(model, solution, palette),
-        (None, Some(LightKind::Photons), _, Some(photons)) => of_photons(model, photons, palette),
-        _ => empty(palette),
+    if let Some(image) = image {
+        return of_image(image, model.settings.image.samples, palette);
     }
+    let of_light = match model.light() {
+        Some(LightKind::Radiosity) => model.solution.map(|solution| of_radiosity(model, solution, palette)),
+        Some(LightKind::Photons) => model.photons.map(|photons| of_photons(model, photons, palette)),
+        Some(LightKind::Occlusion) => model.occlusion.map(|occlusion| of_occlusion(model, occlusion, palette)),
+        None => None,
+    };
+    of_light.unwrap_or_else(|| empty(palette))
 }
 
 fn empty(palette: Palette) -> Progress {
@@ -73,6 +77,13 @@ fn of_photons(model: &Model, photons: &PhotonSolution, palette: Palette) -> Prog
     let hover =
         "Photons that have left the emitters, of those that are wanted; of a progressive run, passes".to_owned();
     Progress { text, share: model.photon_progress(), hover, ..empty(palette) }
+}
+
+fn of_occlusion(model: &Model, occlusion: &VertexShares, palette: Palette) -> Progress {
+    let wanted = model.settings.image.samples;
+    let text = format!("{} of {}", format::count(occlusion.rounds.into()), format::counted(wanted.into(), "round"));
+    let hover = "Rounds of rays from every vertex, of those that are wanted".to_owned();
+    Progress { text, share: model.occlusion_progress(), hover, ..empty(palette) }
 }
 
 fn of_radiosity(model: &Model, solution: &Solution, palette: Palette) -> Progress {

@@ -3,7 +3,7 @@
 use crate::app::format;
 use crate::app::model::{Model, SceneFacts};
 use crate::app::theme::UNIT;
-use crate::solution::{CameraImage, PhotonSolution, Solution};
+use crate::solution::{CameraImage, PhotonSolution, Solution, VertexShares};
 use crate::worker::{LightKind, Phase};
 use egui::{Align, Layout, RichText, Ui};
 use std::time::Duration;
@@ -36,9 +36,10 @@ fn work(ui: &mut Ui, model: &Model) {
     if let Some(picture) = model.image {
         image(ui, picture);
     }
-    match (model.light(), model.solution, model.photons) {
-        (Some(LightKind::Radiosity), Some(solution), _) if model.image.is_none() => radiosity(ui, model, solution),
-        (Some(LightKind::Photons), _, Some(found)) => photons(ui, found, model.image.is_some()),
+    match (model.light(), model.solution, model.photons, model.occlusion) {
+        (Some(LightKind::Radiosity), Some(solution), ..) if model.image.is_none() => radiosity(ui, model, solution),
+        (Some(LightKind::Photons), _, Some(found), _) => photons(ui, found, model.image.is_some()),
+        (Some(LightKind::Occlusion), _, _, Some(found)) => occlusion(ui, found),
         _ => {}
     }
 }
@@ -66,6 +67,12 @@ fn photons(ui: &mut Ui, photons: &PhotonSolution, is_short: bool) {
         item(ui, format::counted(photons.passes, "pass"), "Passes that are done, each with photons of its own");
     }
     rays(ui, counters.rays, photons.elapsed);
+}
+
+fn occlusion(ui: &mut Ui, occlusion: &VertexShares) {
+    item(ui, format::counted(occlusion.rounds.into(), "round"), "Rounds of rays from every vertex that are done");
+    item(ui, format::duration(occlusion.elapsed), "Time spent on these rays; drawing and waiting do not count");
+    rays(ui, occlusion.rays, occlusion.elapsed);
 }
 
 fn radiosity(ui: &mut Ui, model: &Model, solution: &Solution) {

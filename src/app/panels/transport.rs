@@ -39,6 +39,7 @@ fn run_button(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
         let hover = match model.light() {
             Some(LightKind::Radiosity) => "Spreads light until the stop limit is reached",
             Some(LightKind::Photons) => "Emits photons until all that are wanted are there",
+            Some(LightKind::Occlusion) => "Looks for open sky from every vertex, until all rays are there",
             None => "This picture is made by itself: it needs neither radiosity nor photons",
         };
         (Icon::Run, "Run", hover.to_owned(), palette.on_accent)

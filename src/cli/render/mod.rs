@@ -27,7 +27,8 @@ pub struct Options {
     output: PathBuf,
     /// What to show: patches, smooth, unshot, absorbed, bounces or form-factors of radiosity; photons or kd-tree;
     /// photon-irradiance, photon-radiance, caustics, ray-traced, radiosity-specular or final-gather by rays from the
-    /// camera; ambient-occlusion, diffuse or diffuse-ao with even light from everywhere; the diagrams matrix or item-buffer
+    /// camera; ambient-occlusion, diffuse or diffuse-ao with even light from everywhere, ambient-occlusion-vertices on the
+    /// mesh; the diagrams matrix or item-buffer
     #[arg(long, default_value = View::default().name(), value_parser = Subject::parse)]
     view: Subject,
     /// How many bounces of light the view `bounces` shows
@@ -46,7 +47,8 @@ pub struct Options {
     #[arg(long)]
     wireframe: bool,
     /// Samples a pixel, by rays from the camera one by one and else in steps of four [default: 16, or as many as --time
-    /// allows]; where --passes asks for more passes than one, each gives a sample
+    /// allows]; where --passes asks for more passes than one, each gives a sample; for ambient-occlusion-vertices, rounds
+    /// of rays from every vertex
     #[arg(long, value_name = "N", value_parser = values::count::<4096>)]
     samples: Option<u32>,
     #[command(flatten)]

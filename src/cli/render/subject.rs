@@ -59,9 +59,20 @@ impl Subject {
         }
     }
 
+    /// Whether it is ambient occlusion on the mesh.
+    fn is_of_vertices(self) -> bool {
+        self == Self::View(View::OcclusionVertices)
+    }
+
+    /// Whether ambient occlusion is a part of it.
+    fn is_occluded(self) -> bool {
+        matches!(self, Self::View(view) if view.is_occluded())
+    }
+
     /// Whether radiosity is computed for it.
     pub fn is_radiosity(self) -> bool {
-        !self.is_of_photons() && self.camera_view().is_none_or(CameraView::needs_radiosity)
+        let has_own_light = self.is_of_photons() || self.is_of_vertices();
+        !has_own_light && self.camera_view().is_none_or(CameraView::needs_radiosity)
     }
 
     /// Whether it is found by shadow rays to the emitters.
@@ -71,7 +82,7 @@ impl Subject {
 
     /// Whether it can be of some paths of light only.
     fn has_paths(self) -> bool {
-        !self.is_radiosity() && self.camera_view().is_none_or(CameraView::has_paths)
+        !self.is_radiosity() && !self.is_of_vertices() && self.camera_view().is_none_or(CameraView::has_paths)
     }
 }
 
@@ -120,9 +131,7 @@ impl Options {
         if self.image.gather_rays.is_some() && view.camera_view() != Some(CameraView::FinalGather) {
             return unused("--gather-rays");
         }
-        if let Some(option) =
-            self.occlusion.given().filter(|_| !view.camera_view().is_some_and(CameraView::is_occluded))
-        {
+        if let Some(option) = self.occlusion.given().filter(|_| !view.is_occluded()) {
             return unused(option);
         }
         if self.image.paths.is_some() && !view.has_paths() {

@@ -6,7 +6,8 @@ use crate::cli::run_options::Solved;
 use crate::cli::solve::report;
 use crate::cli::tracing::{Tracing, photon_report};
 use crate::cli::{CliError, effect_options, picture};
-use crate::methods::Settings;
+use crate::effects::Bill;
+use crate::methods::{ImageSettings, Settings};
 use crate::solution::{CameraImage, CameraView, Solution};
 use crate::viewport::{Frame, Gpu, Legend, Light, PhotonLook, View, render_picture};
 use crate::worker::{CameraShot, Subject};
@@ -21,6 +22,7 @@ impl Options {
         match view {
             View::Camera(view) => self.draw_by_rays(&gpu, view),
             View::Photons | View::KdTree => self.draw_photons(&gpu, view),
+            View::OcclusionVertices => self.draw_occlusion(&gpu, view),
             _ => self.draw_radiosity(&gpu, view),
         }
     }
@@ -59,6 +61,33 @@ impl Options {
         }
         let frame = self.frame(&tracing.world, &settings, view, None);
         self.draw(gpu, &tracing.world, &settings, &light, &frame, report)
+    }
+
+    fn draw_occlusion(&self, gpu: &Gpu, view: View) -> Result<Drawn, CliError> {
+        let default = if self.run.time().is_some() { ImageSettings::MAX_SAMPLES } else { SAMPLES };
+        let mut settings = self.settings();
+        settings.image.samples = self.samples.unwrap_or(default);
+        let tracing = Tracing::new(self.run.open()?, settings, self.run.time());
+        let shares = tracing.occlusion();
+        let world = &tracing.world;
+        let mut report = json!({
+            "scene": world.scene.name,
+            "method": view.name(),
+            "elements": world.mesh.elements.len(),
+            "vertices": world.mesh.vertices.len(),
+        });
+        effect_options::report(&mut report, Subject::Occlusion, world, &settings, &Bill::default());
+        report["picture"] = json!({
+            "rounds": shares.rounds,
+            "rays": shares.rays,
+            "seconds": shares.elapsed.as_secs_f64(),
+        });
+        let light = Light { occlusion: Some(Arc::new(shares)), ..Light::default() };
+        if let Some(reason) = view.missing(&light) {
+            return Err(CliError::Missing(reason));
+        }
+        let frame = self.frame(world, &settings, view, None);
+        self.draw(gpu, world, &settings, &light, &frame, report)
     }
 
     fn draw_by_rays(&self, gpu: &Gpu, view: CameraView) -> Result<Drawn, CliError> {
@@ -120,8 +149,13 @@ impl Options {
         frame: &Frame,
         report: Value,
     ) -> Result<Drawn, CliError> {
-        // A picture by rays has its samples already.
-        let samples = if matches!(frame.view, View::Camera(_)) { 1 } else { self.samples.unwrap_or(SAMPLES) };
+        let samples = match frame.view {
+            // A picture by rays has its samples already.
+            View::Camera(_) => 1,
+            // Those that were asked for are of vertices.
+            View::OcclusionVertices => SAMPLES,
+            _ => self.samples.unwrap_or(SAMPLES),
+        };
         let picture = render_picture(gpu, world, light, frame, samples)?;
         Ok(Drawn { picture, facts: picture::facts(world, light, settings, frame), report })
     }

@@ -4,10 +4,12 @@
 mod falloff;
 mod pattern;
 mod point;
+mod vertices;
 
 pub use falloff::{Falloff, OcclusionSettings, Range};
 pub use pattern::Pattern;
 pub use point::shares;
+pub use vertices::VertexOcclusion;
 
 use crate::math::warp::{cosine_hemisphere, frame};
 use crate::methods::transport::{Surface, Transport};

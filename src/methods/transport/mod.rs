@@ -93,21 +93,26 @@ impl Transport {
     /// The first surface along a ray.
     pub fn meet(&self, ray: &Ray) -> Option<Surface> {
         let hit = self.world.tracer.closest(ray)?;
-        let Facet { normal, origin } = self.facets[hit.polygon as usize];
-        let facing = if hit.is_front { normal } else { -normal };
         let along = ray.origin + hit.distance * ray.direction;
+        Some(Surface { distance: hit.distance, ..self.surface_on(hit.polygon, hit.is_front, along) })
+    }
+
+    /// The surface at a point of a side of a polygon, as a ray meets it that comes from there.
+    pub fn surface_on(&self, polygon: u32, is_front: bool, point: Vec3A) -> Surface {
+        let Facet { normal, origin } = self.facets[polygon as usize];
+        let facing = if is_front { normal } else { -normal };
         // A long ray rounds more than a lift off the surface makes good: back onto the plane.
-        let point = along - facing * (along - origin).dot(facing);
-        let shading = self.world.scene.shading_normal(hit.polygon as usize, point.into());
-        Some(Surface {
-            polygon: hit.polygon,
-            is_front: hit.is_front,
-            distance: hit.distance,
+        let point = point - facing * (point - origin).dot(facing);
+        let shading = self.world.scene.shading_normal(polygon as usize, point.into());
+        Surface {
+            polygon,
+            is_front,
+            distance: 0.0,
             point,
             facing,
             normal: shading.map_or(facing, |normal| towards(normal.into(), facing)),
-            material: self.world.scene.polygons[hit.polygon as usize].material,
-        })
+            material: self.world.scene.polygons[polygon as usize].material,
+        }
     }
 
     /// The surface at a point, seen from the side that the unit `normal` faces; `None` where there is none.

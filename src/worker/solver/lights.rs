@@ -1,4 +1,4 @@
-//! Radiosity and photons: started, stepped and told of. Each has a run and a clock of its own, whichever is on show.
+//! Radiosity, photons and ambient light on the mesh: started, stepped and told of. Each has a run and a clock of its own, whichever is on show.
 
 use super::{Light, Part, Solver};
 use crate::effects::plan;
@@ -7,7 +7,7 @@ use crate::methods::Step;
 use crate::solution::{CameraView, PhotonSolution, Solution};
 use crate::worker::going::Going;
 use crate::worker::ray_price::seconds_per_ray;
-use crate::worker::run::{PhotonRun, Run};
+use crate::worker::run::{OcclusionRun, PhotonRun, Run};
 use crate::worker::workshop::Workshop;
 use crate::worker::{LightKind, Refused};
 use crate::world::World;
@@ -39,11 +39,16 @@ impl<W: Workshop> Solver<W> {
         let started = match kind {
             Some(LightKind::Radiosity) => self.start_radiosity(world),
             Some(LightKind::Photons) => self.start_photons(&world),
+            Some(LightKind::Occlusion) => {
+                self.start_occlusion(&world);
+                Ok(())
+            }
             None => Ok(()),
         };
         match kind {
             Some(LightKind::Radiosity) => self.easel.forget(CameraView::needs_radiosity),
             Some(LightKind::Photons) => self.easel.forget(CameraView::needs_photons),
+            Some(LightKind::Occlusion) => {}
             None => self.easel.clear(),
         }
         self.snapshot.error = started.err().map(|refused| with_causes(&refused));
@@ -54,6 +59,7 @@ impl<W: Workshop> Solver<W> {
         match kind {
             LightKind::Radiosity => self.radiosity.run.is_some(),
             LightKind::Photons => self.photons.run.is_some(),
+            LightKind::Occlusion => self.occlusion.run.is_some(),
         }
     }
 
@@ -92,8 +98,27 @@ impl<W: Workshop> Solver<W> {
         Ok(())
     }
 
-    /// Begins photons where they are needed and there are none; says so where they are refused.
-    pub(super) fn start_photons_if_needed(&mut self) {
+    /// Begins ambient occlusion on the mesh of the world on show.
+    pub(super) fn start_occlusion(&mut self, world: &Arc<World>) {
+        self.at_work = Part::Light(LightKind::Occlusion);
+        let method = self.workshop.occlusion(world, &self.snapshot.settings);
+        self.occlusion.begin(OcclusionRun::of(method));
+        self.record_occlusion();
+    }
+
+    /// Begins light that is needed and is not there.
+    pub(super) fn start_what_is_needed(&mut self) {
+        self.start_photons_if_needed();
+        let Light { run, going, .. } = &self.occlusion;
+        let is_needed = self.subject().light() == Some(LightKind::Occlusion) || going.is_running();
+        let is_there = run.is_some() || *going == Going::Crashed;
+        if let Some(world) = self.snapshot.world.clone().filter(|_| is_needed && !is_there) {
+            self.start_occlusion(&world);
+        }
+    }
+
+    /// Says so where photons are refused.
+    fn start_photons_if_needed(&mut self) {
         let Light { run, going, .. } = &self.photons;
         let is_needed = self.subject().light() == Some(LightKind::Photons) || going.is_running();
         let is_there = run.is_some() || *going == Going::Crashed;
@@ -111,6 +136,7 @@ impl<W: Workshop> Solver<W> {
         let step = match kind {
             LightKind::Radiosity => self.radiosity.run.as_mut().map(|run| run.step(cancel)),
             LightKind::Photons => self.photons.run.as_mut().map(|run| run.step(cancel)),
+            LightKind::Occlusion => self.occlusion.run.as_mut().map(|run| run.step(cancel)),
         };
         let Some(step) = step.filter(|&step| step != Step::Cancelled) else { return };
         let is_counted = self.going(kind).is_counted() && step != Step::Prepared;
@@ -123,6 +149,7 @@ impl<W: Workshop> Solver<W> {
                     }
                 }
                 LightKind::Photons => self.photons.steps += 1,
+                LightKind::Occlusion => self.occlusion.steps += 1,
             }
         }
         self.going_mut(kind).note(step);
@@ -147,6 +174,12 @@ impl<W: Workshop> Solver<W> {
         self.look_into_estimate();
     }
 
+    pub(super) fn record_occlusion(&mut self) {
+        if let Some(run) = &self.occlusion.run {
+            self.snapshot.occlusion = Some(Arc::new(run.solution()));
+        }
+    }
+
     fn publish_light(&mut self, kind: LightKind) {
         if !self.going(kind).is_running() {
             // It may be complete now.
@@ -159,6 +192,7 @@ impl<W: Workshop> Solver<W> {
                 }
             }
             LightKind::Photons => self.record_photons(),
+            LightKind::Occlusion => self.record_occlusion(),
         }
         self.publish();
     }

@@ -9,7 +9,7 @@ mod scenes;
 use super::going::Going;
 use super::history::History;
 use super::mailbox::{Mail, Mailbox};
-use super::run::{PhotonRun, Run};
+use super::run::{OcclusionRun, PhotonRun, Run};
 use super::workshop::Workshop;
 use super::{Command, LightKind, Phase, Sight, Slot, Snapshot, Spot, Subject};
 use crate::errors::with_causes;
@@ -35,6 +35,7 @@ pub struct Solver<W: Workshop> {
     sight: Option<Sight>,
     radiosity: Light<Run>,
     photons: Light<PhotonRun<W::Photons>>,
+    occlusion: Light<OcclusionRun>,
     easel: Easel<W::Image>,
     history: History,
     /// A patch to be looked from when there is no command to serve.
@@ -100,6 +101,7 @@ impl<W: Workshop> Solver<W> {
             sight: None,
             radiosity: Light::default(),
             photons: Light::default(),
+            occlusion: Light::default(),
             easel: Easel::default(),
             history: History::default(),
             wish: None,
@@ -187,6 +189,7 @@ impl<W: Workshop> Solver<W> {
         match kind {
             LightKind::Radiosity => self.radiosity.going,
             LightKind::Photons => self.photons.going,
+            LightKind::Occlusion => self.occlusion.going,
         }
     }
 
@@ -194,6 +197,7 @@ impl<W: Workshop> Solver<W> {
         match kind {
             LightKind::Radiosity => &mut self.radiosity.going,
             LightKind::Photons => &mut self.photons.going,
+            LightKind::Occlusion => &mut self.occlusion.going,
         }
     }
 
@@ -225,6 +229,11 @@ impl<W: Workshop> Solver<W> {
                 self.photons.run = None;
                 self.photons.going = Going::Crashed;
                 "photon map"
+            }
+            Part::Light(LightKind::Occlusion) => {
+                self.occlusion.run = None;
+                self.occlusion.going = Going::Crashed;
+                "ambient occlusion"
             }
             Part::Picture => {
                 self.easel.clear();

@@ -27,7 +27,7 @@ impl<W: Workshop> Solver<W> {
             return;
         }
         self.easel.has_crashed = false;
-        self.start_photons_if_needed();
+        self.start_what_is_needed();
         if let Some(shot) = self.shot() {
             self.easel.look(&shot);
             // A view that was looked at from here before is there at once.

@@ -75,6 +75,7 @@ impl<W: Workshop> Solver<W> {
                 // All light has the same seed.
                 self.snapshot.settings = Settings { photons: old.photons, seed: old.seed, ..settings };
             }
+            self.configure_occlusion(&world);
             self.configure_pictures(&old);
             if let Err(refused) = self.configure_radiosity(world) {
                 let Settings { photons, image, occlusion, effects, .. } = self.snapshot.settings;
@@ -93,6 +94,7 @@ impl<W: Workshop> Solver<W> {
 
     fn configure_radiosity(&mut self, world: Arc<World>) -> Result<(), Refused> {
         let settings = self.snapshot.settings;
+        self.at_work = Part::Light(LightKind::Radiosity);
         if self.radiosity.run.as_mut().is_some_and(|run| run.configure(&settings)) {
             self.history.reconfigure(&settings);
         } else {
@@ -111,6 +113,16 @@ impl<W: Workshop> Solver<W> {
         }
         self.photons.going.renew();
         Ok(())
+    }
+
+    fn configure_occlusion(&mut self, world: &Arc<World>) {
+        let settings = self.snapshot.settings;
+        let has_begun = self.occlusion.run.is_some() || self.occlusion.going == Going::Crashed;
+        if has_begun && !self.occlusion.run.as_mut().is_some_and(|run| run.configure(&settings)) {
+            self.start_occlusion(world);
+        }
+        self.record_occlusion();
+        self.occlusion.going.renew();
     }
 
     /// Pictures go on where they only get more samples, or fewer. The same photons may be read off in another way.
@@ -141,9 +153,12 @@ impl<W: Workshop> Solver<W> {
                 self.photons.going.renew();
                 self.photons.run = None;
                 self.forget_photons();
+                self.occlusion.going.renew();
+                self.occlusion.run = None;
+                self.snapshot.occlusion = None;
                 self.easel.clear();
                 self.snapshot.image = None;
-                self.start_photons_if_needed();
+                self.start_what_is_needed();
                 true
             }
             Err(no_world) => {

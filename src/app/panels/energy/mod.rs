@@ -1,6 +1,7 @@
 //! Where the emitted light is, and what was spent on it.
 
 mod image;
+mod occlusion;
 mod photons;
 mod radiosity;
 
@@ -23,6 +24,7 @@ pub fn show(ui: &mut Ui, model: &Model) {
     match model.light() {
         Some(LightKind::Radiosity) => radiosity::show(ui, model),
         Some(LightKind::Photons) => photons::show(ui, model),
+        Some(LightKind::Occlusion) => occlusion::show(ui, model.occlusion),
         None if model.image.is_none() => {
             ui.label(RichText::new("No picture yet").weak());
         }

@@ -12,7 +12,6 @@ use crate::app::action::Action;
 use crate::app::format;
 use crate::app::model::Model;
 use crate::methods::Settings;
-use crate::solution::CameraView;
 use crate::worker::{LightKind, Subject};
 use egui::{DragValue, Response, RichText, Ui};
 use std::ops::RangeInclusive;
@@ -24,18 +23,28 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
             occlusion::show(ui, model, actions);
         }
     }
-    if model.subject() != Subject::Radiosity && model.subject().view().is_none_or(CameraView::has_paths) {
+    if model.subject() == Subject::Occlusion {
+        occlusion::rounds(ui, model.settings, actions);
+        occlusion::show(ui, model, actions);
+    }
+    let has_paths = match model.subject() {
+        Subject::Radiosity | Subject::Occlusion => false,
+        Subject::Photons => true,
+        Subject::Camera(view) => view.has_paths(),
+    };
+    if has_paths {
         filter::show(ui, model, actions);
     }
     match model.light() {
         Some(LightKind::Radiosity) => radiosity::show(ui, model, actions),
         Some(LightKind::Photons) => photons::show(ui, model, actions),
-        None => {}
+        Some(LightKind::Occlusion) | None => {}
     }
     seed(ui, model.settings, actions);
     let note = match model.light() {
         Some(LightKind::Radiosity) => "Sliders take effect when let go. All but the stop limit start the light over.",
         Some(LightKind::Photons) => "Sliders take effect when let go. Other photons start the light over.",
+        Some(LightKind::Occlusion) => "Sliders take effect when let go. All but the rounds start over.",
         None => "Sliders take effect when let go, and start the picture over.",
     };
     ui.label(RichText::new(note).small().weak());

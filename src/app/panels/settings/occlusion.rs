@@ -7,7 +7,7 @@ use crate::app::model::Model;
 use crate::app::panels::widgets::{choice, figure, labelled, slider};
 use crate::app::theme::UNIT;
 use crate::choice::Choice;
-use crate::methods::{OcclusionSettings, Range, Settings};
+use crate::methods::{ImageSettings, OcclusionSettings, Range, Settings};
 use egui::accesskit::Role;
 use egui::{Align2, RichText, Sense, Shape, Stroke, TextStyle, Ui, WidgetInfo, pos2, vec2};
 
@@ -29,8 +29,15 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     }
 }
 
+/// A vertex gets as many rays in all as a pixel of a picture.
+pub fn rounds(ui: &mut Ui, mut settings: Settings, actions: &mut Vec<Action>) {
+    let hover = "Rounds of rays from every vertex. Four times as many halve the noise.";
+    let response = count(ui, "Rounds", hover, &mut settings.image.samples, 1..=ImageSettings::MAX_SAMPLES);
+    apply_when_done(&response, settings, actions);
+}
+
 fn rays(ui: &mut Ui, mut settings: Settings, actions: &mut Vec<Action>) {
-    let hover = "Rays of every sample that look for what stands near";
+    let hover = "Rays that look for what stands near: of every sample of a picture, or of a vertex in every round";
     let response = count(ui, "AO rays", hover, &mut settings.occlusion.rays, 1..=OcclusionSettings::MAX_RAYS);
     apply_when_done(&response, settings, actions);
 }
