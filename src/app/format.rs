@@ -139,7 +139,7 @@ pub fn percent_whole(share: f32) -> String {
 pub fn percent_short(share: f64) -> String {
     // Two significant digits first, so that 0.1 % is not 0.100000000000001 %.
     let percent: f64 = format!("{:.1e}", 100.0 * share).parse().unwrap_or(f64::NAN);
-    format!("{percent}{THIN_SPACE}%")
+    format!("{}{THIN_SPACE}%", minus(&percent.to_string()))
 }
 
 /// Two significant digits and a power of ten: `3.1e−7`; zero is `0`.

@@ -54,6 +54,7 @@ pub const AMBIENT_OCCLUSION: KeyboardShortcut = KeyboardShortcut::new(Modifiers:
 pub const DIFFUSE: KeyboardShortcut = KeyboardShortcut::new(Modifiers::SHIFT, Key::Num6);
 pub const DIFFUSE_AMBIENT: KeyboardShortcut = KeyboardShortcut::new(Modifiers::SHIFT, Key::Num7);
 pub const OCCLUSION_VERTICES: KeyboardShortcut = KeyboardShortcut::new(Modifiers::SHIFT, Key::Num8);
+pub const AMBIENT_MINUS_INDIRECT: KeyboardShortcut = KeyboardShortcut::new(Modifiers::SHIFT, Key::Num9);
 pub const WIREFRAME: KeyboardShortcut = key(Key::W);
 pub const SHOOTER: KeyboardShortcut = key(Key::O);
 pub const TICKS: KeyboardShortcut = key(Key::T);
@@ -112,6 +113,9 @@ pub const BINDINGS: &[Binding] = &[
     Binding::new(OCCLUSION_VERTICES, "View: ambient occlusion on the mesh", |model| {
         view(model, View::OcclusionVertices)
     }),
+    Binding::new(AMBIENT_MINUS_INDIRECT, "View: ambient occlusion against indirect light", |model| {
+        view(model, View::Camera(CameraView::AmbientMinusIndirect))
+    }),
     Binding::new(WIREFRAME, "Show or hide the elements' edges", |model| {
         Some(Action::SetLook(Look { wireframe: !model.look.wireframe, ..model.look }))
     }),
@@ -162,6 +166,7 @@ pub fn of_view(view: View) -> KeyboardShortcut {
         View::Camera(CameraView::AmbientOcclusion) => AMBIENT_OCCLUSION,
         View::Camera(CameraView::Diffuse) => DIFFUSE,
         View::Camera(CameraView::DiffuseAmbient) => DIFFUSE_AMBIENT,
+        View::Camera(CameraView::AmbientMinusIndirect) => AMBIENT_MINUS_INDIRECT,
     }
 }
 

@@ -9,7 +9,7 @@ use crate::cli::picture::{self, Format};
 use crate::math::rgb::Rgb64;
 use crate::methods::{Settings, Solver};
 use crate::scene::{Finding, FindingKind};
-use crate::solution::{CameraImage, Gathered, PhotonSolution, PhotonTrail, Solution, VertexShares};
+use crate::solution::{CameraImage, CameraView, Gathered, PhotonSolution, PhotonTrail, Solution, VertexShares};
 use crate::viewport::{Exposure, Legend, PhotonLook, ToneCurve, View};
 use crate::worker::{CheckReport, Curve, LightKind, Phase, Snapshot, Subject};
 use std::path::PathBuf;
@@ -128,7 +128,9 @@ impl Model<'_> {
             Some(LightKind::Occlusion) => self.occlusion.is_some_and(|occlusion| !occlusion.shares.is_empty()),
             None => true,
         };
-        self.subject() == Subject::Radiosity || !(has_light || self.is_running())
+        // A picture that is there and shows nothing will not show more.
+        let is_empty = self.look.view == View::Camera(CameraView::AmbientMinusIndirect) && self.image.is_some();
+        self.subject() == Subject::Radiosity || is_empty || !(has_light || self.is_running())
     }
 
     /// How much of the matrix is built, in [0, 1], while it is.

@@ -24,9 +24,12 @@ impl ViewGroup {
             }
             View::Camera(CameraView::RayTraced | CameraView::RadiositySpecular | CameraView::FinalGather) => Self::Rays,
             View::OcclusionVertices
-            | View::Camera(CameraView::AmbientOcclusion | CameraView::Diffuse | CameraView::DiffuseAmbient) => {
-                Self::Occlusion
-            }
+            | View::Camera(
+                CameraView::AmbientOcclusion
+                | CameraView::Diffuse
+                | CameraView::DiffuseAmbient
+                | CameraView::AmbientMinusIndirect,
+            ) => Self::Occlusion,
             View::Patches | View::Smooth | View::Unshot | View::Absorbed | View::Bounces | View::FormFactors => {
                 Self::Radiosity
             }

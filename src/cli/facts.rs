@@ -151,7 +151,12 @@ impl Facts {
         } else if view.needs_radiosity() {
             self.add_radiosity(light, settings);
         } else {
-            self.add("Method", if view.is_light() { "ray tracing" } else { "ambient occlusion" });
+            let method = match view {
+                CameraView::AmbientOcclusion => "ambient occlusion",
+                CameraView::AmbientMinusIndirect => "ambient occlusion against path tracing",
+                _ => "ray tracing",
+            };
+            self.add("Method", method);
         }
         if view == CameraView::FinalGather {
             self.add("Gather rays", settings.image.gather_rays);
@@ -161,6 +166,9 @@ impl Facts {
         }
         if view.is_occluded() {
             self.add_range(&settings.occlusion);
+        }
+        if let Some(contrast) = light.image_of(view).and_then(|image| image.contrast) {
+            self.add("Range", contrast.range);
         }
         if view.has_paths() && !settings.image.filter.passes_all() {
             self.add("Paths", settings.image.filter.as_str());

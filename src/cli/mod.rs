@@ -119,7 +119,7 @@ pub enum CliError {
     NothingPicked { at: [f32; 2] },
     #[error("only {kept} bounces of light were kept, and the light of the emitters")]
     NoSuchBounce { kept: usize },
-    #[error("there is nothing to draw yet: {0}")]
+    #[error("there is nothing to draw: {0}")]
     Missing(&'static str),
     #[error("no surface is at {},{},{}, seen from where its normal points, and {reason}", .point[0], .point[1], .point[2])]
     InTheAir { point: [f32; 3], reason: &'static str },

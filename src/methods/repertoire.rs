@@ -9,6 +9,9 @@ const PHOTONS: Effects = Effects::of(&[Effect::Interreflection, Effect::Colour, 
 /// What shadow rays to emitters find.
 const BY_SHADOW_RAYS: Effects = Effects::of(&[Effect::DirectLight, Effect::Shadows, Effect::Colour]);
 
+/// What paths find that begin at a surface and not at an emitter.
+const INDIRECT: Effects = Effects::of(&[Effect::Interreflection, Effect::Shadows, Effect::Colour]).and(SPECULAR);
+
 /// Of radiosity. Hemicubes, and form factors by rays, meet what stands in the way without looking for it.
 pub fn of_radiosity(form_factor: FormFactorMethod) -> Effects {
     let all = Effects::of(&[Effect::DirectLight, Effect::Interreflection, Effect::Colour, Effect::Escape]);
@@ -35,5 +38,6 @@ pub fn of_view(view: CameraView, form_factor: FormFactorMethod) -> Effects {
         CameraView::RadiositySpecular => SPECULAR.and(of_radiosity(form_factor)),
         CameraView::Diffuse | CameraView::DiffuseAmbient => BY_SHADOW_RAYS.and(Effects::of(&[Effect::AmbientLight])),
         CameraView::AmbientOcclusion => Effects::default(),
+        CameraView::AmbientMinusIndirect => INDIRECT,
     }
 }

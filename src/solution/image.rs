@@ -1,5 +1,6 @@
 //! What the methods hand out that look from a camera: radiance, pixel by pixel.
 
+use super::Contrast;
 use crate::camera::Camera;
 use crate::choice::Choice;
 use crate::effects::Bill;
@@ -29,6 +30,8 @@ pub enum CameraView {
     Diffuse,
     /// The same with the ambient light, as far as it is not occluded: in place of light between surfaces.
     DiffuseAmbient,
+    /// The share of ambient light that arrives, against the light that truly comes from other surfaces.
+    AmbientMinusIndirect,
 }
 
 impl CameraView {
@@ -39,17 +42,26 @@ impl CameraView {
 
     /// Whether ambient occlusion is a part of it.
     pub fn is_occluded(self) -> bool {
-        matches!(self, Self::AmbientOcclusion | Self::DiffuseAmbient)
+        matches!(self, Self::AmbientOcclusion | Self::DiffuseAmbient | Self::AmbientMinusIndirect)
     }
 
-    /// Whether its values are light; if not, shares in [0, 1].
+    /// Whether its values are light; if not, shares in [0, 1], or what false colours stand for.
     pub fn is_light(self) -> bool {
-        self != Self::AmbientOcclusion
+        !matches!(self, Self::AmbientOcclusion | Self::AmbientMinusIndirect)
     }
 
     /// Whether the paths of its light can be told apart.
     pub fn has_paths(self) -> bool {
-        !matches!(self, Self::RadiositySpecular | Self::AmbientOcclusion | Self::Diffuse | Self::DiffuseAmbient)
+        match self {
+            Self::PhotonIrradiance | Self::PhotonRadiance | Self::Caustics | Self::RayTraced | Self::FinalGather => {
+                true
+            }
+            Self::RadiositySpecular
+            | Self::AmbientOcclusion
+            | Self::Diffuse
+            | Self::DiffuseAmbient
+            | Self::AmbientMinusIndirect => false,
+        }
     }
 
     /// Whether the picture is read off a radiosity solution.
@@ -74,6 +86,7 @@ impl Choice for CameraView {
         Self::AmbientOcclusion,
         Self::Diffuse,
         Self::DiffuseAmbient,
+        Self::AmbientMinusIndirect,
     ];
     const KIND: &'static str = "view from a camera";
 
@@ -88,6 +101,7 @@ impl Choice for CameraView {
             Self::AmbientOcclusion => "ambient-occlusion",
             Self::Diffuse => "diffuse",
             Self::DiffuseAmbient => "diffuse-ao",
+            Self::AmbientMinusIndirect => "ao-minus-indirect",
         }
     }
 
@@ -102,6 +116,7 @@ impl Choice for CameraView {
             Self::AmbientOcclusion => "Ambient occlusion",
             Self::Diffuse => "Diffuse",
             Self::DiffuseAmbient => "Diffuse + AO",
+            Self::AmbientMinusIndirect => "AO − indirect",
         }
     }
 
@@ -116,6 +131,10 @@ impl Choice for CameraView {
             Self::AmbientOcclusion => "Share of an even light from everywhere that arrives: no emitter is needed",
             Self::Diffuse => "Diffuse colour in direct light, or in even light where nothing emits",
             Self::DiffuseAmbient => "The same, with ambient light where it is not occluded",
+            Self::AmbientMinusIndirect => {
+                "Ambient occlusion against true light between surfaces, both equally bright on average: blue where it is \
+                 darker, as in a white corner, whose walls reflect light to each other; red where it is brighter"
+            }
         }
     }
 }
@@ -131,10 +150,15 @@ pub struct CameraImage {
     /// pixels then, and the last ones may reach past the edge.
     pub resolution: [u32; 2],
     /// L, W/(m²·sr), row by row from the top left, premultiplied with `coverage`: background counts as 0. For
-    /// [`CameraView::PhotonIrradiance`] E/π; for [`CameraView::AmbientOcclusion`] the share of light that arrives.
+    /// [`CameraView::PhotonIrradiance`] E/π; for [`CameraView::AmbientOcclusion`] the share of light that arrives; for
+    /// [`CameraView::AmbientMinusIndirect`] this share and, as the second number, the indirect irradiance, W/m², weighed by
+    /// how bright its colours are.
     pub radiance: Vec<Rgb>,
     /// Share of each cell that shows a surface, in [0, 1]; the rest is background.
     pub coverage: Vec<f32>,
+    /// How the two numbers of [`CameraView::AmbientMinusIndirect`] compare; `None` for other views, and where one of them
+    /// is nothing.
+    pub contrast: Option<Contrast>,
     /// Samples a pixel so far; 0 while it is coarse.
     pub samples: u32,
     pub rays: u64,

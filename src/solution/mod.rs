@@ -1,5 +1,6 @@
 //! What a method hands out: light per element, its ledger of energy, and what it cost.
 
+mod contrast;
 mod exchange;
 mod image;
 mod occlusion;
@@ -7,6 +8,7 @@ mod path;
 mod photons;
 mod probe;
 
+pub use contrast::Contrast;
 pub use exchange::{FormFactorMatrix, ItemBuffer, Picked, Zero};
 pub use image::{CameraImage, CameraView};
 pub use occlusion::VertexShares;

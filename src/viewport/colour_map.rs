@@ -23,6 +23,27 @@ pub fn colour(share: f32) -> Rgb {
     encoded.to_array().map(linear).into()
 }
 
+/// Which colours stand for the numbers of a scale.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ColourMap {
+    /// [`colour`]: from little to much.
+    Sequential,
+    /// [`diverging`]: both ways from a middle.
+    Diverging,
+}
+
+/// The colour of a share in [0, 1] that is far from 1/2 to either side, linear RGB: from blue over white to red. Equal steps
+/// to both sides are equally far from white in each channel as a screen encodes it. The ends are those of the scheme RdBu
+/// (Brewer 2003).
+pub fn diverging(share: f32) -> Rgb {
+    /// Encoded as sRGB.
+    const BLUE: Rgb = Rgb::new(33.0 / 255.0, 102.0 / 255.0, 172.0 / 255.0);
+    const RED: Rgb = Rgb::new(178.0 / 255.0, 24.0 / 255.0, 43.0 / 255.0);
+    let from_middle = 2.0 * share.clamp(0.0, 1.0) - 1.0;
+    let end = if from_middle < 0.0 { BLUE } else { RED };
+    Rgb::ONE.lerp(end, from_middle.abs()).to_array().map(linear).into()
+}
+
 /// The colour of a screen that stands for nothing: neither a share nor light.
 pub const GREY: Rgb = Rgb::splat(0.18);
 
@@ -56,6 +77,17 @@ mod tests {
             // Viridis itself keeps within 1 of a straight line; the fit adds 1/128 of a channel, some 1 of lightness.
             assert!((shade - even).abs() < 2.0, "{shade} at {percent} %, not {even}");
         }
+    }
+
+    #[test]
+    fn a_diverging_map_is_white_in_the_middle_and_falls_evenly_to_both_sides() {
+        assert_eq!(diverging(0.5), Rgb::ONE);
+        let shades: Vec<f32> = (0..=100).map(|percent| lightness(diverging(percent as f32 / 100.0))).collect();
+        assert!(shades[..=50].windows(2).all(|pair| pair[1] > pair[0]));
+        assert!(shades[50..].windows(2).all(|pair| pair[1] < pair[0]));
+        // Of the scheme's ends red is the darker one, by 4 in lightness, and by up to 6.5 on the way.
+        assert!((0..50).all(|i| (-0.1..7.0).contains(&(shades[i] - shades[100 - i]))), "{shades:?}");
+        assert_eq!((diverging(-1.0), diverging(2.0)), (diverging(0.0), diverging(1.0)));
     }
 
     #[test]

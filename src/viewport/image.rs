@@ -1,10 +1,12 @@
 //! A picture from a camera on the graphics device, shown as it is.
 
 use super::Gpu;
+use super::colour_map::GREY;
 use super::pipelines::{Pipelines, bind};
 use super::shading::Quantity;
-use super::targets;
-use crate::solution::CameraImage;
+use super::{Legend, targets};
+use crate::math::rgb::Rgb;
+use crate::solution::{CameraImage, CameraView};
 use bytemuck::cast_slice;
 use std::sync::Arc;
 use wgpu::TextureUsages;
@@ -61,10 +63,22 @@ impl ImageTexture {
     }
 }
 
-/// Radiance of each cell, premultiplied with the coverage in the fourth channel, row by row from the top left.
+/// Radiance of each cell, or its false colour, premultiplied with the coverage in the fourth channel, row by row from the
+/// top left.
 pub fn texels(image: &CameraImage) -> Vec<[f32; 4]> {
-    let cells = image.radiance.iter().zip(&image.coverage);
-    cells.map(|(radiance, &coverage)| [radiance.x, radiance.y, radiance.z, coverage]).collect()
+    let texel = |(colour, &coverage): (Rgb, &f32)| [colour.x, colour.y, colour.z, coverage];
+    if image.view == CameraView::AmbientMinusIndirect {
+        return differences(image).zip(&image.coverage).map(texel).collect();
+    }
+    image.radiance.iter().copied().zip(&image.coverage).map(texel).collect()
+}
+
+/// The colour of the difference that each cell shows; plain grey where there is nothing to compare.
+fn differences(image: &CameraImage) -> impl Iterator<Item = Rgb> {
+    let legend = Legend::of_image(image);
+    let colour =
+        move |cell| legend.as_ref().zip(image.difference(cell)).map_or(GREY, |(legend, value)| legend.colour(value));
+    (0..image.radiance.len()).map(move |cell| image.coverage[cell] * colour(cell))
 }
 
 /// A texture of four floats a texel.

@@ -54,7 +54,7 @@ impl View {
             Self::OcclusionVertices => Some("No ray has looked for open sky yet: press Run"),
             // What shines itself may be seen already.
             Self::Camera(view) if view.needs_photons() && waits_for_photons => Some(NO_PHOTONS),
-            Self::Camera(view) if light.image_of(view).is_some() => None,
+            Self::Camera(view) if light.image_of(view).is_some() => light.image_of(view).and_then(nothing_to_compare),
             Self::Camera(view) if view.needs_photons() && !has_photons => Some(NO_PHOTONS),
             Self::Camera(view) if view.needs_radiosity() && light.solution.is_none() => {
                 Some("This picture is read off a radiosity solution, and there is none yet: press Run")
@@ -93,6 +93,14 @@ impl View {
     }
 }
 
+/// Why a picture that compares two kinds of light shows none.
+fn nothing_to_compare(image: &Arc<CameraImage>) -> Option<&'static str> {
+    let is_comparison = image.view == CameraView::AmbientMinusIndirect;
+    (is_comparison && image.contrast.is_none()).then_some(
+        "No light comes here from one surface to another, or no ambient light arrives: there is nothing to compare",
+    )
+}
+
 impl Choice for View {
     const ALL: &'static [Self] = &[
         Self::Patches,
@@ -112,6 +120,7 @@ impl Choice for View {
         Self::Camera(CameraView::AmbientOcclusion),
         Self::Camera(CameraView::Diffuse),
         Self::Camera(CameraView::DiffuseAmbient),
+        Self::Camera(CameraView::AmbientMinusIndirect),
         Self::OcclusionVertices,
     ];
     const KIND: &'static str = "view";

@@ -100,6 +100,31 @@ fn ambient_occlusion_on_the_mesh_is_drawn_without_a_lamp() {
 }
 
 #[test]
+fn ambient_occlusion_is_held_against_indirect_light_where_there_is_some() {
+    if !can_draw() {
+        return;
+    }
+    let folder = folder();
+    let render = "-o c.png --view ao-minus-indirect --samples 4 --json";
+    let report = json(&folder, &format!("render {SMALL} {render}"));
+    assert_eq!(report["method"], "ao-minus-indirect");
+    let picture = &report["picture"];
+    let high = number(&picture["legend"]["high"]);
+    assert!(high > 0.0 && number(&picture["legend"]["low"]) == -high, "{report}");
+    let [difference, correlation] = ["mean_absolute_difference", "correlation"].map(|name| number(&picture[name]));
+    assert!(difference > 0.0 && difference < high && (-1.0..=1.0).contains(&correlation), "{report}");
+    assert!(number(&picture["mean_share"]) > 0.0 && number(&picture["mean_indirect_irradiance"]) > 0.0, "{report}");
+    assert_eq!(picture["exposure"], serde_json::Value::Null);
+    let texts = texts(&folder, "c.png");
+    assert_eq!(texts.get("Range"), Some(&high.to_string()), "{texts:?}");
+    write_dark_scene(&folder);
+    let refused = refusal(&folder, "render dark.obj -o d.png --view ao-minus-indirect --samples 1 --size 16x12", 1);
+    assert_contains(&refused, &["No light comes here", "there is nothing to compare"]);
+    let refused = refusal(&folder, &format!("render {SMALL} {render} --paths LDE"), 2);
+    assert_contains(&refused, &["--paths is not for the view `ao-minus-indirect`"]);
+}
+
+#[test]
 fn a_report_tells_of_the_light_that_a_picture_is_read_off() {
     if !can_draw() {
         return;

@@ -1,6 +1,7 @@
 //! Pictures from a camera: the making of them, what rays bring, and views against each other and against brute force.
 
 mod agreement;
+mod contrast;
 mod film;
 mod rays;
 mod spheres;

@@ -4,8 +4,8 @@ use crate::{SIZE, frame, gpu, light, motley, pixel, solution, square};
 use lightwell::camera::Camera;
 use lightwell::effects::Bill;
 use lightwell::math::rgb::Rgb;
-use lightwell::solution::{CameraImage, CameraView};
-use lightwell::viewport::{Frame, Light, ToneCurve, View, Viewport, render_picture};
+use lightwell::solution::{CameraImage, CameraView, Contrast};
+use lightwell::viewport::{Frame, Legend, Light, ToneCurve, View, Viewport, render_picture};
 use lightwell::world::World;
 use std::sync::Arc;
 use std::time::Duration;
@@ -21,6 +21,7 @@ fn image(world: &World, resolution: [u32; 2], value: impl Fn(usize) -> (Rgb, f32
         resolution,
         radiance,
         coverage,
+        contrast: None,
         samples: 1,
         rays: 0,
         bill: Bill::default(),
@@ -95,6 +96,41 @@ fn shares_are_shown_as_they_are_whatever_the_exposure() {
     let picture = render_picture(&gpu, &world, &light, &frame, 4).expect("a picture");
     assert_eq!([picture.srgb[0][0], picture.srgb[1][0]], [188, 255]);
     assert_eq!([picture.linear[0][0], picture.linear[1][0]], [0.5, 1.0]);
+}
+
+#[test]
+fn differences_have_the_colours_of_their_legend_and_are_missed_where_there_are_none() {
+    let Some(gpu) = gpu() else { return };
+    let world = square();
+    let view = CameraView::AmbientMinusIndirect;
+    // Shares from 0 to 1 and as much light everywhere, but for background.
+    let value = |cell: usize| {
+        let coverage = if cell.is_multiple_of(7) { 0.0 } else { 1.0 };
+        (coverage * Rgb::new((cell % 100) as f32 / 99.0, 3.0, 0.0), coverage)
+    };
+    let image = image(&world, SIZE, value);
+    let contrast = Contrast::of(&image.radiance, &image.coverage);
+    let picture_of = |contrast| {
+        let image = Arc::new(CameraImage { view, contrast, ..image.clone() });
+        let light = Light { image: Some(image.clone()), ..Light::default() };
+        let frame = Frame { exposure_ev: -3.0, tone: ToneCurve::Filmic, ..frame(&world, View::Camera(view)) };
+        (render_picture(&gpu, &world, &light, &frame, 4).expect("a picture"), light, image)
+    };
+    let (picture, light, image) = picture_of(contrast);
+    assert_eq!(View::Camera(view).missing(&light), None);
+    let legend = Legend::of(View::Camera(view), &light).expect("a legend");
+    // a/ā − 1 is between −1 and 1.
+    assert_eq!((legend.low, legend.high), (-1.0, 1.0));
+    for (cell, shown) in picture.linear.iter().enumerate() {
+        let expected = image.difference(cell).map_or(Rgb::ZERO, |difference| legend.colour(difference));
+        assert_eq!(Rgb::from_slice(&shown[..3]), expected, "{cell}");
+    }
+    let [dark, bright] = [100, 199].map(|cell| picture.srgb[cell]);
+    assert!(dark[2] > dark[0] && bright[0] > bright[2], "{dark:?} is blue and {bright:?} red");
+    let (plain, light, _) = picture_of(None);
+    let reason = View::Camera(view).missing(&light).expect("a reason");
+    assert!(reason.contains("nothing to compare") && Legend::of(View::Camera(view), &light).is_none());
+    assert!(plain.linear.iter().all(|shown| shown[0] == shown[1] && shown[1] == shown[2]), "it is grey");
 }
 
 #[test]

@@ -9,7 +9,7 @@ use lightwell::app::action::Action;
 use lightwell::app::model::{Dialog, LowerPanel};
 use lightwell::hard_cases::cases;
 use lightwell::methods::{Settings, Solver};
-use lightwell::viewport::colour_map::colour;
+use lightwell::viewport::colour_map::{ColourMap, colour};
 use lightwell::viewport::{Legend, View};
 use lightwell::worker::Command;
 
@@ -75,8 +75,15 @@ fn where_there_is_no_matrix_the_way_to_one_is_offered() {
 
 #[test]
 fn false_colours_have_a_legend() {
-    let legend =
-        Legend { title: "Form factor", unit: "", low: 1e-6, high: 1e-2, is_logarithmic: true, ticks: vec![1e-4, 1e-2] };
+    let legend = Legend {
+        title: "Form factor",
+        unit: "",
+        low: 1e-6,
+        high: 1e-2,
+        is_logarithmic: true,
+        map: ColourMap::Sequential,
+        ticks: vec![1e-4, 1e-2],
+    };
     assert_eq!(legend.colour(1e-2), colour(1.0));
     let mut stage = Stage { legend: Some(legend), ..Stage::default() };
     stage.look.view = View::FormFactors;

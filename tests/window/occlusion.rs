@@ -1,6 +1,6 @@
 //! Ambient occlusion on the mesh, and scenes that nothing else would show.
 
-use super::stage::{LARGE, Stage, finding, showing};
+use super::stage::{LARGE, Stage, finding, image, showing};
 use super::{click, key, thin};
 use egui::accesskit::{Role, Toggled};
 use egui::{Key, Modifiers};
@@ -10,8 +10,9 @@ use lightwell::app::model::Look;
 use lightwell::app::views::ViewGroup;
 use lightwell::methods::{ImageSettings, Settings};
 use lightwell::scene::{FindingKind, Severity};
-use lightwell::solution::VertexShares;
-use lightwell::viewport::View;
+use lightwell::solution::{CameraView, VertexShares};
+use lightwell::viewport::colour_map::ColourMap;
+use lightwell::viewport::{Legend, View};
 use lightwell::worker::{Command, Phase};
 use std::sync::Arc;
 use std::time::Duration;
@@ -99,4 +100,30 @@ fn a_scene_without_an_emitter_is_shown_by_it_or_gets_a_light() {
         assert_eq!(!entry.accesskit_node().is_disabled(), is_offered);
         assert_ne!(entry.accesskit_node().toggled(), Some(Toggled::True));
     }
+}
+
+#[test]
+fn a_comparison_has_a_legend_or_says_that_there_is_nothing_to_compare() {
+    let view = CameraView::AmbientMinusIndirect;
+    let compared = || Stage { image: Some(image(view)), ..showing(View::Camera(view)) };
+    let legend = Legend {
+        title: "Ambient occlusion less indirect light",
+        unit: "",
+        low: -0.5,
+        high: 0.5,
+        is_logarithmic: false,
+        map: ColourMap::Diverging,
+        ticks: vec![-0.5, 0.0, 0.5],
+    };
+    let harness = Stage { legend: Some(legend), ..compared() }.window(LARGE);
+    harness.get_by_label("Legend: Ambient occlusion less indirect light");
+    for (label, is_shown) in [("AO rays", true), ("Samples", true), ("Paths", false), ("Automatic exposure", false)] {
+        assert_eq!(harness.query_all_by_label(label).next().is_some(), is_shown, "{label}");
+    }
+    let missing = Some("There is nothing to compare");
+    let harness = Stage { missing, ..compared() }.window(LARGE);
+    harness.get_by_label("There is nothing to compare");
+    // A picture that is on its way is no news.
+    let harness = Stage { missing, image: None, ..compared() }.window(LARGE);
+    assert!(harness.query_by_label("There is nothing to compare").is_none());
 }

@@ -23,6 +23,7 @@ use lightwell::solution::{
     CameraImage, CameraView, Closure, Counters, Energy, Gathered, PhotonCounters, PhotonEnergy, PhotonSolution,
     PhotonTrail, Progress, Scattering, Solution, TrailPlace, VertexShares,
 };
+use lightwell::viewport::colour_map::ColourMap;
 use lightwell::viewport::diagram::Swatch;
 use lightwell::viewport::{Legend, View};
 use lightwell::worker::{CheckReport, Curve, CurvePoint, Entry, Phase};
@@ -237,8 +238,15 @@ fn pictures(ctx: &egui::Context) -> (MatrixTexture, TextureHandle) {
         ctx.load_texture(name, image, egui::TextureOptions::NEAREST)
     };
     let swatch = |(label, share)| Swatch { label, colour: Rgb::splat(0.5), share };
-    let legend =
-        Legend { title: "Form factor", unit: "", low: 1e-6, high: 1e-2, is_logarithmic: true, ticks: vec![1e-4, 1e-2] };
+    let legend = Legend {
+        title: "Form factor",
+        unit: "",
+        low: 1e-6,
+        high: 1e-2,
+        is_logarithmic: true,
+        map: ColourMap::Sequential,
+        ticks: vec![1e-4, 1e-2],
+    };
     let matrix = MatrixTexture {
         texture: texture("matrix"),
         size: 500,
@@ -338,6 +346,7 @@ pub fn image(view: CameraView) -> CameraImage {
         resolution: [1; 2],
         radiance: vec![Rgb::ONE],
         coverage: vec![1.0],
+        contrast: None,
         samples: 4,
         rays: 3_000_000,
         bill: Bill::default(),

@@ -28,7 +28,7 @@ pub struct Options {
     /// What to show: patches, smooth, unshot, absorbed, bounces or form-factors of radiosity; photons or kd-tree;
     /// photon-irradiance, photon-radiance, caustics, ray-traced, radiosity-specular or final-gather by rays from the
     /// camera; ambient-occlusion, diffuse or diffuse-ao with even light from everywhere, ambient-occlusion-vertices on the
-    /// mesh; the diagrams matrix or item-buffer
+    /// mesh, ao-minus-indirect against the true light between surfaces; the diagrams matrix or item-buffer
     #[arg(long, default_value = View::default().name(), value_parser = Subject::parse)]
     view: Subject,
     /// How many bounces of light the view `bounces` shows

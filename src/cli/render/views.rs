@@ -121,6 +121,11 @@ impl Options {
         report["picture"] = image_report(&image, view.is_light().then_some(frame.exposure_ev));
         let light =
             Light { solution, photons: photons.map(Arc::new), image: Some(Arc::new(image)), ..Light::default() };
+        if view == CameraView::AmbientMinusIndirect
+            && let Some(reason) = frame.view.missing(&light)
+        {
+            return Err(CliError::Missing(reason));
+        }
         self.draw(gpu, world, &settings, &light, &frame, report)
     }
 
@@ -163,10 +168,18 @@ impl Options {
 
 /// What there is to say of a picture by rays; `exposure_ev` where it is of light.
 pub fn image_report(image: &CameraImage, exposure_ev: Option<f32>) -> Value {
-    json!({
+    let mut report = json!({
         "exposure": exposure_ev,
         "samples": image.samples,
         "rays": image.rays,
         "seconds": image.elapsed.as_secs_f64(),
-    })
+    });
+    if let Some(contrast) = image.contrast {
+        report["legend"] = json!({ "low": -contrast.range, "high": contrast.range });
+        report["mean_share"] = json!(contrast.mean_share);
+        report["mean_indirect_irradiance"] = json!(contrast.mean_irradiance);
+        report["mean_absolute_difference"] = json!(contrast.mean_difference);
+        report["correlation"] = json!(contrast.correlation);
+    }
+    report
 }

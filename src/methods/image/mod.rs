@@ -3,6 +3,7 @@
 
 mod ambient;
 mod arrivals;
+mod contrast;
 mod cost;
 mod direct;
 mod draws;
@@ -17,9 +18,10 @@ use crate::cancel::Cancel;
 use crate::methods::photon_map::PhotonMaps;
 use crate::methods::transport::{Media, Transport};
 use crate::methods::{ImageSettings, Settings, Step};
-use crate::solution::{CameraImage, CameraView, PathFilter, Solution};
+use crate::solution::{CameraImage, CameraView, Contrast, PathFilter, Solution};
 use ambient::{AmbientLook, Parts};
 use arrivals::ArrivalMaps;
+use contrast::ContrastLook;
 use eye_path::{DiffuseLight, EyePath, Look};
 use film::Film;
 use gather::GatherLight;
@@ -56,7 +58,10 @@ impl Sources {
                 light_rays: settings.light_rays,
                 matcher: settings.filter.matcher(),
             }),
-            CameraView::AmbientOcclusion | CameraView::Diffuse | CameraView::DiffuseAmbient => return None,
+            CameraView::AmbientOcclusion
+            | CameraView::Diffuse
+            | CameraView::DiffuseAmbient
+            | CameraView::AmbientMinusIndirect => return None,
         })
     }
 
@@ -70,6 +75,9 @@ impl Sources {
             CameraView::AmbientOcclusion => Parts::Occlusion,
             CameraView::Diffuse => Parts::Diffuse,
             CameraView::DiffuseAmbient => Parts::DiffuseAmbient,
+            CameraView::AmbientMinusIndirect => {
+                return Some(Arc::new(ContrastLook::new(self.transport.clone(), settings)));
+            }
             _ => return Some(Arc::new(self.eye_path(view, &settings.image)?)),
         };
         Some(Arc::new(AmbientLook::new(self.transport.clone(), parts, settings)))
@@ -155,11 +163,14 @@ impl ImageRun {
     /// clock.
     pub fn image(&self) -> Option<CameraImage> {
         let developed = self.film.develop()?;
+        let is_compared = self.view == CameraView::AmbientMinusIndirect;
+        let contrast = || Contrast::of(&developed.radiance, &developed.coverage);
         Some(CameraImage {
             view: self.view,
             camera: self.camera,
             size: self.size,
             resolution: developed.resolution,
+            contrast: is_compared.then(contrast).flatten(),
             radiance: developed.radiance,
             coverage: developed.coverage,
             samples: self.film.samples(),
