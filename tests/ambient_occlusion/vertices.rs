@@ -239,7 +239,10 @@ fn a_run_is_the_same_to_the_bit_on_any_number_of_threads_and_goes_on_where_it_st
     assert_eq!(run.rounds(), 1);
     let image = ImageSettings { samples: 3, ..ImageSettings::default() };
     assert!(run.configure(&Settings { occlusion, image, seed: 5, ..Settings::default() }));
-    assert!(!run.configure(&Settings { occlusion, image, seed: 6, ..Settings::default() }));
+    let others = [(occlusion, 6), (OcclusionSettings { falloff: Falloff::None, ..occlusion }, 5)];
+    for (occlusion, seed) in others {
+        assert!(!run.configure(&Settings { occlusion, image, seed, ..Settings::default() }));
+    }
     while run.step(&Cancel::default()) == Step::Advanced {}
     assert_eq!(run.solution().shares, first.shares);
 }
