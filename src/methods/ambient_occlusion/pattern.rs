@@ -15,7 +15,7 @@ const PASS: u64 = 0x7061_7474_6572;
 ///
 /// Who asks again gets further blocks of the sequence, which together are as well spread as one of them, until there are no
 /// more: then it begins anew, turned about z by another angle. So all that is known of the slope of directions is in the
-/// pattern, and what is missing of it, in the mean over all of its directions, is about one part in [`DIRECTIONS`].
+/// pattern, and what is missing of it, in the mean over all of its directions, is about one part in their number.
 pub struct Pattern {
     directions: Vec<Vec3A>,
     /// Of a block.
