@@ -2,7 +2,7 @@
 
 use crate::build_with;
 use crate::obj::Obj;
-use glam::{DVec2, Quat, Vec2, Vec3, Vec3A};
+use glam::{Quat, Vec2, Vec3, Vec3A};
 use lightwell::math::random::Stream;
 use lightwell::math::rgb::Rgb;
 use lightwell::mesh::{Mesh, Shape, Side};
@@ -149,13 +149,10 @@ fn tiled(tiles: &[[Vec2; 2]], scale: f32) -> World {
     build_with(obj.open(), 0.1 * scale)
 }
 
-/// The polygons that a point of their plane lies on.
-fn polygons_at(mesh: &Mesh, point: Vec3A) -> Vec<u32> {
-    const NEAR: f64 = 1e-4;
-    let holds = |shape: &Shape| {
-        let at = shape.coordinates(point.as_dvec3());
-        at.cmpge(DVec2::splat(-NEAR)).all() && at.cmple(DVec2::splat(1.0 + NEAR)).all()
-    };
+/// The polygons that a point lies on, or is nearer to than this, m.
+fn polygons_at(mesh: &Mesh, point: Vec3A, near: f32) -> Vec<u32> {
+    let point = point.as_dvec3();
+    let holds = |shape: &Shape| shape.point(shape.nearest_coordinates(point)).distance(point) <= near.into();
     (0..mesh.sides.len() as u32 / 2)
         .filter(|&polygon| mesh.side(polygon, true).is_some_and(|side| holds(&side.shape)))
         .collect()
@@ -174,7 +171,8 @@ fn check_tiles(tiles: &[[Vec2; 2]], scale: f32) {
     let position = |vertex: u32| mesh.vertices[vertex as usize] / scale;
     // Corners are rounded to half a unit in the last place of coordinates below 2, cells are at least 0.05 wide, and
     // values differ by at most 2.
-    let tolerance = 2.0 * 4.0 * f32::EPSILON / 0.05;
+    let rounding = 4.0 * f32::EPSILON;
+    let tolerance = 2.0 * rounding / 0.05;
 
     let mut is_free: Vec<bool> = vec![true; mesh.vertices.len()];
     mesh.hanging.iter().for_each(|hanging| is_free[hanging.vertex as usize] = false);
@@ -190,7 +188,7 @@ fn check_tiles(tiles: &[[Vec2; 2]], scale: f32) {
     for hanging in &mesh.hanging {
         let point = Vec3A::from(mesh.vertices[hanging.vertex as usize]);
         let value = values[hanging.vertex as usize].x;
-        for polygon in polygons_at(mesh, point) {
+        for polygon in polygons_at(mesh, point, rounding * scale) {
             let on_polygon = value_on(mesh, polygon, point, &values);
             assert!((on_polygon - value).abs() < tolerance, "{on_polygon} on polygon {polygon}, {value} at its edge");
         }
