@@ -8,8 +8,8 @@ use crate::world::World;
 
 /// Which effects a world calls for, and what is best computed how.
 ///
-/// An effect that is not needed can be skipped without a change to the light: where the census cannot tell, the effect is
-/// needed.
+/// An effect that is not needed can be skipped without a change to the light. Where the census cannot tell, the effect is
+/// needed; which sides light reaches, and whether it can leave, is known as well as the rays tell that explored the scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
     /// One for each effect, in the order in which people are shown them.

@@ -97,7 +97,10 @@ fn direct_light(census: &Census) -> (bool, String) {
 fn shadows(world: &World) -> (bool, String) {
     let reached = polygons(world.census.reached);
     if world.has_occluders {
-        return (true, format!("Something may stand between two of the {reached} that light reaches."));
+        return (
+            true,
+            format!("Something may stand between two of the {reached} that light reaches, or shut off others."),
+        );
     }
     (false, format!("Nothing stands before the planes of the {reached} that light reaches."))
 }
@@ -117,10 +120,10 @@ fn interreflection(census: &Census) -> (bool, String) {
 }
 
 fn colour(census: &Census) -> (bool, String) {
-    let reached = polygons(census.reached);
+    let all = polygons(census.polygons);
     match census.coloured {
-        0 => (false, format!("Red, green and blue are equal in the materials of all {reached} that light reaches.")),
-        count => (true, format!("Red, green and blue differ in the materials of {count} of {reached}.")),
+        0 => (false, format!("Red, green and blue are equal in the materials of all {all}.")),
+        count => (true, format!("Red, green and blue differ in the materials of {count} of {all}.")),
     }
 }
 

@@ -28,6 +28,14 @@ pub fn of_photons() -> Effects {
     PHOTONS
 }
 
+/// What a view is there to show, whether the scene calls for it or not.
+pub fn asked_for_by(view: CameraView) -> Effects {
+    match view {
+        CameraView::DiffuseAmbient => Effects::of(&[Effect::AmbientLight]),
+        _ => Effects::default(),
+    }
+}
+
 /// Of a picture from a camera with the light that it is read off.
 pub fn of_view(view: CameraView, form_factor: FormFactorMethod) -> Effects {
     match view {

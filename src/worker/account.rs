@@ -1,7 +1,7 @@
 //! What became of each effect in what is on show.
 
 use super::Subject;
-use crate::effects::{Bill, Effect, Effects};
+use crate::effects::{Bill, Effect, Effects, needed};
 use crate::methods::{Settings, radiosity, repertoire};
 use crate::world::World;
 
@@ -27,11 +27,19 @@ impl Subject {
         }
     }
 
+    /// Effects that the world or the view itself calls for.
+    pub fn needed(self, world: &World) -> Effects {
+        match self {
+            Self::Radiosity | Self::Photons | Self::Occlusion => needed(world),
+            Self::Camera(view) => needed(world).and(repertoire::asked_for_by(view)),
+        }
+    }
+
     /// What became of each effect that it tells apart, by a bill of all that it took.
     pub fn account(self, world: &World, settings: &Settings, bill: &Bill) -> Vec<Entry> {
         let simulated = match self {
             Self::Radiosity => radiosity::simulated(world, settings),
-            Self::Photons | Self::Occlusion | Self::Camera(_) => settings.effects.simulated_in(world),
+            Self::Photons | Self::Occlusion | Self::Camera(_) => settings.effects.simulated(self.needed(world)),
         };
         let entry = |effect| Entry {
             effect,

@@ -16,8 +16,9 @@ const ROUNDS: usize = 3;
 /// Marks this use of (seed, pass) among the others.
 const PASS: u64 = 0x7072_6963_6500;
 
-/// Seconds that a ray takes at least, if all threads trace: by timing some thousand rays from the middles of polygons. Whoever
-/// traces a ray for some purpose has to choose it, too, and to make something of it.
+/// About what a ray takes by itself if all threads trace, s: by timing some thousand rays from the middles of polygons to what
+/// they meet first. Whoever traces a ray for some purpose has to choose it, too, and to make something of it; and one that
+/// only asks whether anything is in the way takes less.
 pub fn seconds_per_ray(world: &World) -> f64 {
     let polygons = &world.scene.polygons;
     if polygons.is_empty() {

@@ -8,11 +8,13 @@ use super::surface::Surfaces;
 use crate::math::rgb::Rgb;
 use crate::scene::{Material, Scene};
 
-/// Counts of polygons. All but the first and the last are of polygons that light reaches on one side or both.
+/// Counts of polygons, and what they tell of light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Census {
     pub polygons: usize,
-    /// Those that light reaches.
+    /// Those of which some number is not the same in red, green and blue. A picture may show what light does not reach.
+    pub coloured: usize,
+    /// Those that light reaches on one side or both. All other counts are of these.
     pub reached: usize,
     pub emitters: usize,
     /// Emitters of which random rays meet nothing.
@@ -25,8 +27,6 @@ pub struct Census {
     pub glass: usize,
     /// Those that let light straight through.
     pub sheets: usize,
-    /// Those of which some number is not the same in red, green and blue.
-    pub coloured: usize,
     /// Smallest and largest ρ, by channel; 0 where light reaches nothing.
     pub reflectance: [Rgb; 2],
     /// Whether light of an emitter may reach a surface.
@@ -37,23 +37,26 @@ pub struct Census {
 
 impl Census {
     /// Counts what light reaches: `is_reached` is by side, as in [`crate::mesh::Mesh::sides`]. Sides see each other if they
-    /// face each other by more than `tolerance`, m.
+    /// face each other by more than `tolerance`, m. Whether emitters light any of them is known already.
     pub(super) fn take(
         scene: &Scene,
         surfaces: &Surfaces,
         is_reached: &[bool],
         unseen_emitters: usize,
+        light_may_arrive: bool,
         tolerance: f64,
     ) -> Self {
         let traits: Vec<Traits> = scene.materials.iter().map(Traits::new).collect();
         let of = |polygon: usize| &traits[scene.polygons[polygon].material as usize];
-        let mut counts = vec![0; traits.len()];
+        let (mut counts, mut all) = (vec![0; traits.len()], vec![0; traits.len()]);
         for (polygon, sides) in scene.polygons.iter().zip(is_reached.chunks_exact(2)) {
             counts[polygon.material as usize] += usize::from(sides[0] || sides[1]);
+            all[polygon.material as usize] += 1;
         }
-        let count = |has: fn(&Traits) -> bool| {
-            traits.iter().zip(&counts).filter(|(traits, _)| has(traits)).map(|(_, count)| count).sum()
+        let count_in = |counts: &[usize], has: fn(&Traits) -> bool| {
+            traits.iter().zip(counts).filter(|(traits, _)| has(traits)).map(|(_, count)| count).sum()
         };
+        let count = |has| count_in(&counts, has);
         let reached: Vec<usize> = (0..is_reached.len()).filter(|&side| is_reached[side]).collect();
         let those = |has: fn(&Traits) -> bool| -> Vec<usize> {
             reached.iter().copied().filter(|side| has(of(side / 2))).collect()
@@ -61,6 +64,7 @@ impl Census {
         let emitters = emitting_sides(scene);
         Self {
             polygons: scene.polygons.len(),
+            coloured: count_in(&all, |traits| traits.is_coloured),
             reached: counts.iter().sum(),
             emitters: emitters.len(),
             unseen_emitters,
@@ -69,10 +73,10 @@ impl Census {
             glossy: count(|traits| traits.is_glossy),
             glass: count(|traits| traits.is_glass),
             sheets: count(|traits| traits.is_sheet),
-            coloured: count(|traits| traits.is_coloured),
             reflectance: reflectance(&traits, &counts),
-            light_may_arrive: may_see(surfaces, &emitters, &reached, tolerance),
-            light_may_meet_specular: may_see(surfaces, &emitters, &those(Traits::is_specular), tolerance),
+            light_may_arrive,
+            light_may_meet_specular: light_may_arrive
+                && may_see(surfaces, &emitters, &those(Traits::is_specular), tolerance),
         }
     }
 
@@ -80,6 +84,12 @@ impl Census {
     pub fn unreached(&self) -> usize {
         self.polygons - self.reached
     }
+}
+
+/// Whether light of these emitting sides may arrive at any side that is reached.
+pub(super) fn light_arrives(surfaces: &Surfaces, emitters: &[usize], is_reached: &[bool], tolerance: f64) -> bool {
+    let reached: Vec<usize> = (0..is_reached.len()).filter(|&side| is_reached[side]).collect();
+    may_see(surfaces, emitters, &reached, tolerance)
 }
 
 /// Smallest and largest ρ, by channel, of the materials that are reached.
@@ -158,9 +168,11 @@ mod tests {
         let tolerance = f64::from(world.tracer.offset());
         let count = |_| {
             let start = Instant::now();
-            let has_occluders = occluders::may_exist(&surfaces, &world.is_reached, tolerance);
-            let census =
-                Census::take(&world.scene, &surfaces, &world.is_reached, world.census.unseen_emitters, tolerance);
+            let emitters = emitting_sides(&world.scene);
+            let arrives = light_arrives(&surfaces, &emitters, &world.is_reached, tolerance);
+            let has_occluders = occluders::may_exist(&surfaces, &emitters, &world.is_reached, tolerance);
+            let unseen = world.census.unseen_emitters;
+            let census = Census::take(&world.scene, &surfaces, &world.is_reached, unseen, arrives, tolerance);
             std::hint::black_box((has_occluders, census));
             start.elapsed()
         };

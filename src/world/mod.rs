@@ -42,8 +42,9 @@ pub struct World {
     pub viewpoint: Viewpoint,
     /// Share of the bounces of light that leave the scene, in [0, 1], of those that explored it.
     pub escape_share: f64,
-    /// Whether anything may stand between two points that light reaches. If not, whatever faces each other sees each other
-    /// whole, as far as rays can tell: they start off a surface by more than anything here is out of place.
+    /// Whether anything may stand between two points that light reaches, or an emitter faces what its light does not reach.
+    /// If not, whatever faces each other sees each other whole, as far as rays can tell: they start off a surface by more
+    /// than anything here is out of place.
     pub has_occluders: bool,
     /// What light meets.
     pub census: Census,
@@ -75,7 +76,7 @@ impl From<Cancelled> for WorldError {
 
 impl World {
     /// Mends the emitters, builds the tracer, finds out which sides light can reach, and cuts these into elements. Where
-    /// nothing emits, these are the sides that the eye or the light of the sky can reach.
+    /// no emitter lights anything, these are the sides that the eye or the light of the sky can reach, and the emitters.
     ///
     /// # Errors
     /// If cancelled, or if the element size is not a positive number or too fine for memory.
@@ -89,17 +90,25 @@ impl World {
         let surfaces = Surfaces::new(&scene);
         let bounds = Bounds::of(surfaces.corners());
         let start = scene.viewpoint.unwrap_or_else(|| viewpoint::most_open(&bounds, &tracer));
-        let Reach { is_reached, is_walked, escape_share, rooms } =
-            sides::explore(&scene, &surfaces, &tracer, start.eye, cancel)?;
+        let tolerance = tracer.offset().min(TOUCHING * bounds.radius());
+        let emitters = sides::emitting_sides(&scene);
+        let mut reach = sides::explore(&scene, &emitters, &surfaces, &tracer, start.eye, cancel)?;
+        let arrives = census::light_arrives(&surfaces, &emitters, &reach.is_reached, tolerance.into());
+        if !emitters.is_empty() && !arrives {
+            // Lamps that light nothing are no reason not to look round.
+            let lit = reach;
+            reach = sides::explore(&scene, &[], &surfaces, &tracer, start.eye, cancel)?;
+            reach.add_lit(&lit);
+        }
+        let Reach { is_reached, is_walked, escape_share, rooms } = reach;
         let hidden = emitters::hidden(&scene, &surfaces, &tracer);
         let unseen_emitters = hidden.len();
         findings.extend(hidden);
         scene.findings.extend::<Vec<Finding>>(findings);
         let viewpoint =
             scene.viewpoint.unwrap_or_else(|| viewpoint::choose(&bounds, &surfaces, &tracer, &is_walked, &rooms));
-        let tolerance = tracer.offset().min(TOUCHING * bounds.radius());
-        let has_occluders = occluders::may_exist(&surfaces, &is_reached, tolerance.into());
-        let census = Census::take(&scene, &surfaces, &is_reached, unseen_emitters, tolerance.into());
+        let has_occluders = occluders::may_exist(&surfaces, &emitters, &is_reached, tolerance.into());
+        let census = Census::take(&scene, &surfaces, &is_reached, unseen_emitters, arrives, tolerance.into());
         let (mesh, element_size) = mesh(&scene, &surfaces, &tracer, &is_reached, settings, cancel)?;
         Ok(Self {
             scene: Arc::new(scene),

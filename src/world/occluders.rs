@@ -5,8 +5,11 @@
 //! polygons are all in K, then so is every line between two points of theirs, since K is convex; none of these polygons
 //! crosses a line, since each lies in one of the planes that bound K; and what light does not reach crosses none if it is
 //! behind one of them.
+//!
+//! That is of light that goes from one surface that it reaches to another. A picture also asks whether an emitter lights what
+//! light does not reach, such as a lawn before the house that the lamp is in: where it faces one, only a ray can tell.
 
-use super::planes::Plane;
+use super::planes::{Plane, may_see};
 use super::surface::Surfaces;
 use std::collections::HashSet;
 
@@ -14,9 +17,14 @@ use std::collections::HashSet;
 /// of them would take longer than a few thousandths of a second.
 const MOST_PAIRS: usize = 1 << 21;
 
-/// False if nothing crosses a line between two points of sides that light reaches by more than `tolerance`, m. True if
-/// something may: nothing is traced, so that it costs next to nothing.
-pub fn may_exist(surfaces: &Surfaces, is_reached: &[bool], tolerance: f64) -> bool {
+/// False if nothing crosses a line between two points of sides that light reaches by more than `tolerance`, m, and no
+/// emitting side faces one that light does not reach. True if something may: nothing is traced, so that it costs next to
+/// nothing.
+pub fn may_exist(surfaces: &Surfaces, emitters: &[usize], is_reached: &[bool], tolerance: f64) -> bool {
+    let dark: Vec<usize> = (0..is_reached.len()).filter(|&side| !is_reached[side]).collect();
+    if may_see(surfaces, emitters, &dark, tolerance) {
+        return true;
+    }
     let corners = surfaces.corners().count();
     let reached = (0..is_reached.len()).filter(|&side| is_reached[side]);
     // A wall of many polygons has one plane.

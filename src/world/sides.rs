@@ -6,7 +6,7 @@
 //! from an emitter by a free line of sight: no chain of guesses, every step is a ray, so nothing that is shut off is
 //! ever taken for reached. Both kinds of walk together find what is small or hard to get into.
 //!
-//! Where nothing emits, walks start from what the eye sees, and the even light of the sky may come from anywhere: a shell
+//! Where no emitter lights anything, walks start from what the eye sees, and the even light of the sky may come from anywhere: a shell
 //! from which a walk leaves the scene is reached, too.
 
 use super::TOUCHING;
@@ -50,19 +50,27 @@ pub struct Reach {
     pub rooms: Vec<Place>,
 }
 
-/// Explores the scene from its emitters, or from the eye where there are none.
+impl Reach {
+    /// Adds what light of emitters reaches, and takes over how much of that leaves the scene.
+    pub fn add_lit(&mut self, lit: &Self) {
+        self.is_reached.iter_mut().zip(&lit.is_reached).for_each(|(this, lit)| *this |= lit);
+        self.escape_share = lit.escape_share;
+    }
+}
+
+/// Explores the scene from these emitting sides, or from the eye where there are none.
 pub fn explore(
     scene: &Scene,
+    emitters: &[usize],
     surfaces: &Surfaces,
     tracer: &Tracer,
     eye: Vec3,
     cancel: &Cancel,
 ) -> Result<Reach, Cancelled> {
     let shells = shells(scene, surfaces);
-    let emitters: Vec<usize> = emitting_sides(scene);
     let walks = LIGHT_WALKS.max(emitters.len());
     let walks: Vec<Walk> =
-        (0..walks).into_par_iter().map(|i| light_walk(i, walks, &emitters, surfaces, tracer, eye)).collect();
+        (0..walks).into_par_iter().map(|i| light_walk(i, walks, emitters, surfaces, tracer, eye)).collect();
     let light: Vec<Place> = walks.iter().flat_map(|walk| walk.places.iter().copied()).collect();
     let mut is_shell_reached = vec![false; shells.count];
     let mut is_touched = vec![false; 2 * surfaces.len()];
@@ -106,7 +114,7 @@ pub fn explore(
             (is_walked, is_walked || is_shell_open[shell])
         })
         .unzip();
-    for &side in &emitters {
+    for &side in emitters {
         is_walked[side] = true;
         is_reached[side] = true;
     }

@@ -15,9 +15,10 @@ use lightwell::methods::image::{ImageRun, Sources};
 use lightwell::methods::photon_map::PhotonMapping;
 use lightwell::methods::transport::Transport;
 use lightwell::methods::{ImageSettings, OcclusionSettings, PhotonSettings, Settings, Step, radiosity};
-use lightwell::scene::Scene;
+use lightwell::scene::{Scene, Viewpoint};
 use lightwell::solution::{CameraImage, CameraView, Solution};
 use lightwell::world::World;
+use quads::Quads;
 use std::sync::Arc;
 
 fn world(scene: Scene) -> World {
@@ -38,6 +39,24 @@ fn scene_size(scene: &Scene) -> f32 {
 
 fn builtin(name: &str) -> Scene {
     Scene::open(name).expect("a built-in scene")
+}
+
+/// The same, seen from elsewhere.
+fn seen_from(eye: [f32; 3], target: [f32; 3], scene: Scene) -> Scene {
+    let viewpoint = Viewpoint { eye: eye.into(), target: target.into(), up: glam::Vec3::Y, vertical_fov: 60.0 };
+    Scene { viewpoint: Some(viewpoint), ..scene }
+}
+
+/// A room with a lamp in it, on a red lawn that gets no light, seen from the lawn.
+fn house() -> Scene {
+    let quads = Quads::room("grey", "glow", "grey").up("red", 5.0, -0.01);
+    seen_from([3.0, 2.0, 4.0], [0.0, 0.0, 0.0], quads.scene())
+}
+
+/// Coloured surfaces, and a lamp far above that shines away from them.
+fn moonless_night() -> Scene {
+    let quads = Quads::new().up("red", 1.0, 0.0).around("grey", 0.2, [0.0, 0.4], false).up("lamp", 0.01, 60.0);
+    seen_from([2.0, 1.0, 2.0], [0.0, 0.0, 0.0], quads.scene())
 }
 
 fn without(effect: Effect) -> Switches {

@@ -1,17 +1,16 @@
 //! Which effects of light scenes call for, and why.
 
 use super::quads::Quads;
-use super::{builtin, world};
+use super::{builtin, house, moonless_night, seen_from, world};
 use Effect::{
     AmbientLight, Caustics, Colour, DirectLight, Escape, Gloss, Interreflection, Shadows, SpecularReflection,
     Transmission,
 };
-use glam::Vec3;
 use lightwell::cancel::Cancel;
 use lightwell::choice::Choice;
 use lightwell::effects::{Approach, Effect, Effects, Plan, plan};
 use lightwell::mesh::MeshSettings;
-use lightwell::scene::{BUILTINS, Scene, Viewpoint};
+use lightwell::scene::{BUILTINS, Scene};
 use lightwell::world::with_ceiling_light;
 use std::time::{Duration, Instant};
 
@@ -64,7 +63,7 @@ fn an_empty_room_needs_no_shadows_and_a_grey_one_no_colour() {
         ("a yellow wall", Quads::room("glow", "grey", "yellow"), &[Colour]),
         ("a warm lamp", Quads::room("warm", "grey", "grey"), &[Colour]),
         ("a block", Quads::room("glow", "grey", "grey").block("grey"), &[Shadows]),
-        ("red behind a wall", Quads::room("glow", "grey", "grey").down("red", 0.5, -0.5), &[]),
+        ("red behind a wall", Quads::room("glow", "grey", "grey").down("red", 0.5, -0.5), &[Colour]),
         ("a hole", Quads::new().up("glow", 1.0, 0.0).around("grey", 1.0, [0.0, 1.0], true), &[Escape]),
     ] {
         assert_needed(what, &plan_of(quads.scene()), &[&bare, more].concat());
@@ -131,16 +130,26 @@ fn a_dark_scene_needs_ambient_light_and_of_the_others_none_that_carries_light() 
     let dark = plan_of(floor.scene());
     assert_needed("a floor without an emitter", &dark, &[Escape, AmbientLight]);
     assert_eq!(dark.advice.approach, Approach::AmbientOcclusion);
-    let (eye, target) = (Vec3::new(0.0, 0.5, 0.9), Vec3::new(0.0, 0.5, 0.0));
-    let from_within = Viewpoint { eye, target, up: Vec3::Y, vertical_fov: 60.0 };
-    let room = Scene { viewpoint: Some(from_within), ..Quads::room("grey", "red", "grey").scene() };
+    let room = seen_from([0.0, 0.5, 0.9], [0.0, 0.5, 0.0], Quads::room("grey", "red", "grey").scene());
     assert_needed("a room without an emitter", &plan_of(room.clone()), &[Colour, AmbientLight]);
     let lit = plan_of(with_ceiling_light(&room));
     assert_needed("a room with a ceiling light", &lit, &[DirectLight, Shadows, Interreflection, Colour]);
     let hidden = plan_of(Quads::room("black", "black", "black").up("lamp", 0.2, 1.01).scene());
     assert_needed("a lamp on the roof", &hidden, &[Escape, AmbientLight]);
-    assert_eq!(hidden.parts.len(), 2, "{:?}", hidden.parts);
-    assert!(hidden.parts[0].starts_with("1 of 1 emitters") && hidden.parts[1].starts_with("6 of 7 polygons"));
+    assert_eq!(hidden.parts, ["1 of 1 emitters light nothing that random rays find."]);
+    assert_needed("a lamp that shines on nothing", &plan_of(moonless_night()), &[Colour, Escape, AmbientLight]);
+}
+
+#[test]
+fn a_lamp_that_shines_on_nothing_is_no_reason_not_to_look_at_the_rest() {
+    let world = world(moonless_night());
+    assert!(!world.census.light_may_arrive && world.census.unreached() == 0, "{:?}", world.census);
+}
+
+#[test]
+fn what_a_lamp_faces_and_does_not_reach_needs_shadows() {
+    let needed = [DirectLight, Shadows, Interreflection, Colour];
+    assert_needed("a house in the dark", &plan_of(house()), &needed);
 }
 
 #[test]
@@ -159,7 +168,7 @@ fn reasons_give_the_figures() {
     };
     for (effect, expected) in [
         (DirectLight, "Emitters with something in sight: 1 of 1."),
-        (Shadows, "Something may stand between two of the 12 polygons that light reaches."),
+        (Shadows, "Something may stand between two of the 12 polygons that light reaches, or shut off others."),
         (
             Interreflection,
             "5 of 12 polygons reflect diffusely, with a reflectance from 0 to (0.5, 0.25, 0.25), at least back to where their light comes from.",

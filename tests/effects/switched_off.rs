@@ -6,6 +6,7 @@ use lightwell::effects::{Bill, Effect, Effects, Switches, needed};
 use lightwell::math::rgb::{Rgb, total};
 use lightwell::methods::{Settings, Solver};
 use lightwell::solution::CameraView;
+use lightwell::worker::Subject;
 use lightwell::world::World;
 use std::sync::Arc;
 
@@ -174,4 +175,26 @@ fn without_ambient_light_a_dark_scene_is_black() {
         assert!(lit > 0.0 && dark == 0.0, "{view:?}: {lit}, {dark}");
         assert_eq!(bill.spent(Effect::AmbientLight), 0, "{view:?}");
     }
+}
+
+#[test]
+fn a_view_calls_for_what_it_is_there_to_show() {
+    let world = coarse(builtin("cornell-box"));
+    let view = CameraView::DiffuseAmbient;
+    let subject = Subject::Camera(view);
+    let shown = picture(&world, view, &settings(Switches::default()));
+    for (effects, is_simulated) in [(Switches::default(), true), (without(Effect::AmbientLight), false)] {
+        let settings = settings(effects);
+        let bill = picture(&world, view, &settings).bill;
+        let entries = subject.account(&world, &settings, &bill);
+        let entry = entries.iter().find(|entry| entry.effect == Effect::AmbientLight).expect("it can be left out");
+        let became = (entry.is_simulated, entry.spent > 0, entry.saved > 0);
+        assert_eq!(became, (is_simulated, is_simulated, !is_simulated));
+    }
+    let needed = subject.needed(&world);
+    let off = Switches::default().with(Effect::AmbientLight, false, needed);
+    assert_eq!(off, without(Effect::AmbientLight));
+    assert_eq!(off.with(Effect::AmbientLight, true, needed), Switches::default());
+    // How bright ambient light is does not depend on what radiosity leaves out.
+    assert_eq!(picture(&world, view, &settings(without(Effect::Escape))).radiance, shown.radiance);
 }

@@ -88,7 +88,7 @@ fn what_is_missing_is_told_with_a_way_back() {
         harness.run();
         assert_eq!(harness.state().actions, [switched(Switches::default())]);
     }
-    without_shadows().window(TALL).get_by_label(&thin("saved 40_M rays, ≥ 2_s"));
+    without_shadows().window(TALL).get_by_label(&thin("saved 40_M rays, ≈ 2_s"));
 }
 
 #[test]

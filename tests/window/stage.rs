@@ -144,8 +144,8 @@ impl Stage {
             scene: self.is_open.then_some(facts),
             effects: self.is_open.then(|| EffectFacts {
                 plan: &PLAN,
+                needed: PLAN.needed(),
                 entries: self.effects.clone(),
-                rays: 31_000_000,
                 elapsed: Duration::from_secs(3),
                 seconds_per_ray: 5e-8,
             }),

@@ -47,7 +47,7 @@ fn row(ui: &mut Ui, settings: Settings, facts: &EffectFacts, verdict: &Verdict, 
         let checkbox = Checkbox::new(&mut is_on, verdict.effect.label());
         let response = ui.add_enabled(entry.is_some(), checkbox);
         if response.on_hover_text(&hover).on_disabled_hover_text(&hover).changed() {
-            let effects = settings.effects.with(verdict.effect, is_on, facts.plan.needed());
+            let effects = settings.effects.with(verdict.effect, is_on, facts.needed);
             actions.push(Action::ApplySettings(Settings { effects, ..settings }));
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -63,10 +63,10 @@ fn price(facts: &EffectFacts, verdict: &Verdict, entry: Option<&Entry>) -> Strin
     let time = |seconds: f64| format::short(seconds, "s");
     match entry {
         Some(&Entry { is_simulated: true, spent, .. }) if spent > 0 => {
-            format!("{} rays, {}", rays(spent), time(facts.seconds_spent(spent)))
+            format!("{} rays, ≈ {}", rays(spent), time(facts.seconds_spent(spent)))
         }
         Some(&Entry { is_simulated: false, saved, .. }) if saved > 0 => {
-            format!("saved {} rays, ≥ {}", rays(saved), time(facts.seconds_saved(saved)))
+            format!("saved {} rays, ≈ {}", rays(saved), time(facts.seconds_saved(saved)))
         }
         _ => need.to_owned(),
     }

@@ -40,7 +40,7 @@ impl ContrastLook {
 
     /// The share of ambient light that arrives.
     fn share(&self, surface: &Surface, tools: &mut Tools<'_>) -> f32 {
-        tools.cost.spend(Effect::AmbientLight, self.occlusion.rays());
+        tools.cost.rays += u64::from(self.occlusion.rays());
         let (asker, time) = (tools.draws.pixel(), tools.draws.sample());
         self.occlusion.visibility_by(&self.pattern, surface, asker, time).share
     }
@@ -79,6 +79,9 @@ impl ContrastLook {
             if bsdf.diffuse() != Rgb::ZERO {
                 let diffuse = bsdf.only(Scattering::Diffuse);
                 sum += throughput * direct::random(&self.transport, &surface, &diffuse, tools);
+            }
+            if !spreads && whole.diffuse() != Rgb::ZERO {
+                tools.cost.save(Effect::Interreflection, 1);
             }
             let Some(sample) = bsdf.sample(throughput, &mut tools.draws.stream) else { break };
             throughput *= sample.weight * sample.narrowing;

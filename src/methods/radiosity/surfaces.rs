@@ -11,9 +11,9 @@ use crate::world::World;
 
 /// The irradiance that reflected light is expected to bring to the surfaces of a world on average, W/m²: all that will arrive
 /// if it spreads evenly, without what comes straight from the emitters. In a closed room Φ ρ̄ / (S (1 − ρ̄)). Of the simulated
-/// effects, colours count.
+/// effects, colours count and no others.
 pub fn mean_indirect_irradiance(world: &World, effects: Effects) -> Rgb {
-    let surfaces = Surfaces::new(world, effects.and(Effects::of(&[Effect::Interreflection])));
+    let surfaces = Surfaces::new(world, effects.and(Effects::of(&[Effect::Interreflection, Effect::Escape])));
     let area = surfaces.total_area();
     if area == 0.0 {
         return Rgb::ZERO;
