@@ -5,6 +5,7 @@
 //! out ([`solution`]), the [`methods`], the [`hard_cases`], the solver thread ([`worker`]), the picture ([`camera`],
 //! [`viewport`]) and the two faces of the program ([`cli`], [`app`]).
 
+pub mod accuracy;
 pub mod app;
 pub mod camera;
 pub mod cancel;

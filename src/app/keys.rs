@@ -55,6 +55,8 @@ pub const DIFFUSE: KeyboardShortcut = KeyboardShortcut::new(Modifiers::SHIFT, Ke
 pub const DIFFUSE_AMBIENT: KeyboardShortcut = KeyboardShortcut::new(Modifiers::SHIFT, Key::Num7);
 pub const OCCLUSION_VERTICES: KeyboardShortcut = KeyboardShortcut::new(Modifiers::SHIFT, Key::Num8);
 pub const AMBIENT_MINUS_INDIRECT: KeyboardShortcut = KeyboardShortcut::new(Modifiers::SHIFT, Key::Num9);
+pub const REFERENCE: KeyboardShortcut = KeyboardShortcut::new(Modifiers::SHIFT, Key::Num0);
+pub const RADIOSITY_DIRECT: KeyboardShortcut = key(Key::D);
 pub const WIREFRAME: KeyboardShortcut = key(Key::W);
 pub const SHOOTER: KeyboardShortcut = key(Key::O);
 pub const TICKS: KeyboardShortcut = key(Key::T);
@@ -100,6 +102,9 @@ pub const BINDINGS: &[Binding] = &[
     Binding::new(RADIOSITY_SPECULAR, "View: radiosity with specular surfaces traced", |model| {
         view(model, View::Camera(CameraView::RadiositySpecular))
     }),
+    Binding::new(RADIOSITY_DIRECT, "View: radiosity with direct light by rays", |model| {
+        view(model, View::Camera(CameraView::RadiosityDirect))
+    }),
     Binding::new(FINAL_GATHER, "View: final gather", |model| view(model, View::Camera(CameraView::FinalGather))),
     Binding::new(AMBIENT_OCCLUSION, "View: ambient occlusion", |model| {
         view(model, View::Camera(CameraView::AmbientOcclusion))
@@ -116,6 +121,7 @@ pub const BINDINGS: &[Binding] = &[
     Binding::new(AMBIENT_MINUS_INDIRECT, "View: ambient occlusion against indirect light", |model| {
         view(model, View::Camera(CameraView::AmbientMinusIndirect))
     }),
+    Binding::new(REFERENCE, "View: the unbiased reference", |model| view(model, View::Camera(CameraView::Reference))),
     Binding::new(WIREFRAME, "Show or hide the elements' edges", |model| {
         Some(Action::SetLook(Look { wireframe: !model.look.wireframe, ..model.look }))
     }),
@@ -162,11 +168,13 @@ pub fn of_view(view: View) -> KeyboardShortcut {
         View::Camera(CameraView::Caustics) => CAUSTICS,
         View::Camera(CameraView::RayTraced) => RAY_TRACED,
         View::Camera(CameraView::RadiositySpecular) => RADIOSITY_SPECULAR,
+        View::Camera(CameraView::RadiosityDirect) => RADIOSITY_DIRECT,
         View::Camera(CameraView::FinalGather) => FINAL_GATHER,
         View::Camera(CameraView::AmbientOcclusion) => AMBIENT_OCCLUSION,
         View::Camera(CameraView::Diffuse) => DIFFUSE,
         View::Camera(CameraView::DiffuseAmbient) => DIFFUSE_AMBIENT,
         View::Camera(CameraView::AmbientMinusIndirect) => AMBIENT_MINUS_INDIRECT,
+        View::Camera(CameraView::Reference) => REFERENCE,
     }
 }
 

@@ -22,7 +22,13 @@ impl ViewGroup {
             View::Camera(CameraView::PhotonIrradiance | CameraView::PhotonRadiance | CameraView::Caustics) => {
                 Self::PhotonMap
             }
-            View::Camera(CameraView::RayTraced | CameraView::RadiositySpecular | CameraView::FinalGather) => Self::Rays,
+            View::Camera(
+                CameraView::RayTraced
+                | CameraView::RadiositySpecular
+                | CameraView::RadiosityDirect
+                | CameraView::FinalGather
+                | CameraView::Reference,
+            ) => Self::Rays,
             View::OcclusionVertices
             | View::Camera(
                 CameraView::AmbientOcclusion
@@ -68,8 +74,8 @@ impl Choice for ViewGroup {
     fn label(self) -> &'static str {
         match self {
             Self::Radiosity => "Radiosity",
-            Self::PhotonMap => "Photon map",
-            Self::Rays => "Ray tracing",
+            Self::PhotonMap => "Photons",
+            Self::Rays => "Rays",
             Self::Occlusion => "Occlusion",
         }
     }

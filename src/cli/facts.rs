@@ -154,6 +154,7 @@ impl Facts {
             let method = match view {
                 CameraView::AmbientOcclusion => "ambient occlusion",
                 CameraView::AmbientMinusIndirect => "ambient occlusion against path tracing",
+                CameraView::Reference => "path tracing",
                 _ => "ray tracing",
             };
             self.add("Method", method);

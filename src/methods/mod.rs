@@ -1,14 +1,18 @@
 //! The ways to simulate light. Each is plain state and a step: no threads of its own, no clock, no file, no window.
 
 pub mod ambient_occlusion;
+mod cost;
 pub mod image;
+pub mod path_trace;
 pub mod photon_map;
 pub mod radiosity;
 pub mod repertoire;
 mod settings;
+mod shadows;
 pub mod transport;
 
 pub use ambient_occlusion::{Falloff, OcclusionSettings, Range};
+pub use cost::Cost;
 pub use settings::{FormFactorMethod, ImageSettings, Kernel, PhotonSettings, Settings, Solver};
 
 use crate::cancel::Cancel;

@@ -43,9 +43,11 @@ pub fn of_view(view: CameraView, form_factor: FormFactorMethod) -> Effects {
         CameraView::Caustics => PHOTONS,
         CameraView::FinalGather => PHOTONS.and(BY_SHADOW_RAYS),
         CameraView::RayTraced => SPECULAR.and(BY_SHADOW_RAYS),
+        CameraView::RadiosityDirect => SPECULAR.and(of_radiosity(form_factor)).and(BY_SHADOW_RAYS),
         CameraView::RadiositySpecular => SPECULAR.and(of_radiosity(form_factor)),
         CameraView::Diffuse | CameraView::DiffuseAmbient => BY_SHADOW_RAYS.and(Effects::of(&[Effect::AmbientLight])),
         CameraView::AmbientOcclusion => Effects::default(),
         CameraView::AmbientMinusIndirect => INDIRECT,
+        CameraView::Reference => PHOTONS.and(BY_SHADOW_RAYS),
     }
 }

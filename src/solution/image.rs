@@ -22,6 +22,8 @@ pub enum CameraView {
     RayTraced,
     /// The radiosity solution seen directly, with specular surfaces traced (Wallace, Cohen, Greenberg 1987).
     RadiositySpecular,
+    /// The same, but for light straight from the emitters, which shadow rays find (Chen, Rushmeier, Miller, Turner 1991).
+    RadiosityDirect,
     /// Direct and specular rays, a caustic map, and diffuse rays that end in the photon map (Jensen 1996).
     FinalGather,
     /// The share of an even light from everywhere that arrives, in [0, 1], and nothing else.
@@ -32,6 +34,8 @@ pub enum CameraView {
     DiffuseAmbient,
     /// The share of ambient light that arrives, against the light that truly comes from other surfaces.
     AmbientMinusIndirect,
+    /// All light there is, by path tracing (Kajiya 1986): noisy, without a bias.
+    Reference,
 }
 
 impl CameraView {
@@ -53,10 +57,14 @@ impl CameraView {
     /// Whether the paths of its light can be told apart.
     pub fn has_paths(self) -> bool {
         match self {
-            Self::PhotonIrradiance | Self::PhotonRadiance | Self::Caustics | Self::RayTraced | Self::FinalGather => {
-                true
-            }
+            Self::PhotonIrradiance
+            | Self::PhotonRadiance
+            | Self::Caustics
+            | Self::RayTraced
+            | Self::FinalGather
+            | Self::Reference => true,
             Self::RadiositySpecular
+            | Self::RadiosityDirect
             | Self::AmbientOcclusion
             | Self::Diffuse
             | Self::DiffuseAmbient
@@ -66,12 +74,15 @@ impl CameraView {
 
     /// Whether the picture is read off a radiosity solution.
     pub fn needs_radiosity(self) -> bool {
-        self == Self::RadiositySpecular
+        matches!(self, Self::RadiositySpecular | Self::RadiosityDirect)
     }
 
     /// Whether shadow rays find the light of the emitters.
     pub fn samples_emitters(self) -> bool {
-        matches!(self, Self::RayTraced | Self::FinalGather | Self::Diffuse | Self::DiffuseAmbient)
+        matches!(
+            self,
+            Self::RayTraced | Self::RadiosityDirect | Self::FinalGather | Self::Diffuse | Self::DiffuseAmbient
+        )
     }
 }
 
@@ -82,7 +93,9 @@ impl Choice for CameraView {
         Self::Caustics,
         Self::RayTraced,
         Self::RadiositySpecular,
+        Self::RadiosityDirect,
         Self::FinalGather,
+        Self::Reference,
         Self::AmbientOcclusion,
         Self::Diffuse,
         Self::DiffuseAmbient,
@@ -97,11 +110,13 @@ impl Choice for CameraView {
             Self::Caustics => "caustics",
             Self::RayTraced => "ray-traced",
             Self::RadiositySpecular => "radiosity-specular",
+            Self::RadiosityDirect => "radiosity-direct",
             Self::FinalGather => "final-gather",
             Self::AmbientOcclusion => "ambient-occlusion",
             Self::Diffuse => "diffuse",
             Self::DiffuseAmbient => "diffuse-ao",
             Self::AmbientMinusIndirect => "ao-minus-indirect",
+            Self::Reference => "reference",
         }
     }
 
@@ -112,11 +127,13 @@ impl Choice for CameraView {
             Self::Caustics => "Caustics",
             Self::RayTraced => "Ray-traced",
             Self::RadiositySpecular => "Radiosity + specular",
+            Self::RadiosityDirect => "Radiosity + direct",
             Self::FinalGather => "Final gather",
             Self::AmbientOcclusion => "Ambient occlusion",
             Self::Diffuse => "Diffuse",
             Self::DiffuseAmbient => "Diffuse + AO",
             Self::AmbientMinusIndirect => "AO − indirect",
+            Self::Reference => "Reference",
         }
     }
 
@@ -127,6 +144,9 @@ impl Choice for CameraView {
             Self::Caustics => "Light that mirrors and glass gather on diffuse surfaces",
             Self::RayTraced => "Direct light, mirrors and glass; no light between diffuse surfaces",
             Self::RadiositySpecular => "Radiosity seen directly, with mirrors, gloss and glass traced on top",
+            Self::RadiosityDirect => {
+                "The same with sharp shadows: light straight from emitters by rays, the rest from radiosity"
+            }
             Self::FinalGather => "Direct and specular light by rays, diffuse light gathered from the photon map",
             Self::AmbientOcclusion => "Share of an even light from everywhere that arrives: no emitter is needed",
             Self::Diffuse => "Diffuse colour in direct light, or in even light where nothing emits",
@@ -135,6 +155,7 @@ impl Choice for CameraView {
                 "Ambient occlusion against true light between surfaces, both equally bright on average: blue where it is \
                  darker, as in a white corner, whose walls reflect light to each other; red where it is brighter"
             }
+            Self::Reference => "The rendering equation by path tracing: all light, noisy at first, without a bias",
         }
     }
 }

@@ -95,6 +95,8 @@ pub fn missing_share(ambient: Rgb64, arrived: f64) -> f64 {
 pub struct ElementLight {
     /// E, W/m².
     pub irradiance: Vec<Rgb>,
+    /// The part of it that comes straight from emitters, W/m².
+    pub direct: Vec<Rgb>,
     /// B = M_e + ρ E, W/m².
     pub radiosity: Vec<Rgb>,
     /// ΔB of the element's patch, W/m²: radiosity that has not been shot yet.

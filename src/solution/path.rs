@@ -13,6 +13,10 @@ pub enum Scattering {
     Specular,
 }
 
+impl Scattering {
+    pub const ALL: [Self; 2] = [Self::Diffuse, Self::Specular];
+}
+
 /// The events of a path after it left the light, the first one foremost: at most [`Path::MAX_EVENTS`] of them.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(transparent)]
@@ -33,6 +37,16 @@ impl Path {
     /// How many surfaces it met.
     pub fn len(self) -> usize {
         self.0.ilog2() as usize
+    }
+
+    /// What happened last.
+    pub fn last(self) -> Option<Scattering> {
+        self.events().next_back()
+    }
+
+    /// How many surfaces were diffuse.
+    pub fn diffuse_count(self) -> usize {
+        self.len() - (self.0.count_ones() as usize - 1)
     }
 
     /// Whether it comes straight from the light.
@@ -140,8 +154,8 @@ fn compiled(text: &str) -> Result<Regex, regex::Error> {
     Regex::new(&format!("^(?:{})$", text.replace('.', "[DS]")))
 }
 
-/// A pattern that paths can be held against.
-#[derive(Clone, Debug)]
+/// A pattern that paths can be held against; by default every path passes.
+#[derive(Clone, Debug, Default)]
 pub struct PathMatcher(Option<Regex>);
 
 impl PathMatcher {
@@ -170,6 +184,8 @@ mod tests {
         let path = Path::LIGHT.then(Specular).then(Diffuse);
         assert_eq!((path.to_string().as_str(), path.len(), path.is_caustic()), ("LSD", 2, false));
         assert!(Path::LIGHT.then(Specular).is_caustic() && !Path::LIGHT.is_caustic());
+        let other = path.then(Specular).then(Diffuse);
+        assert_eq!((other.diffuse_count(), other.last(), Path::LIGHT.last()), (2, Some(Diffuse), None));
         let long = (0..40).fold(Path::LIGHT.then(Specular), |path, _| path.then(Diffuse));
         assert_eq!(long.to_string(), format!("L{}", "D".repeat(Path::MAX_EVENTS)));
     }

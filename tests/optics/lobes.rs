@@ -25,8 +25,16 @@ fn mean(bsdf: &Bsdf, light: Vec3, seed: u64, function: impl Fn(Vec3, Vec3A) -> V
     (mean, (variance / f64::from(COUNT)).map(f64::sqrt))
 }
 
-/// ∫ f |cos| g dω over the half-space, by midpoints of a grid in height and azimuth.
+/// ∫ f |cos| g dω over the half-space.
 fn integral(bsdf: &Bsdf, function: impl Fn(Vec3A) -> f64) -> f64 {
+    over_directions(|direction| {
+        let [diffuse, glossy] = bsdf.value(direction);
+        f64::from(diffuse.x + glossy.x) * function(direction)
+    })
+}
+
+/// ∫ g dω over the half-space, by midpoints of a grid in height and azimuth.
+fn over_directions(function: impl Fn(Vec3A) -> f64) -> f64 {
     let (heights, turns) = (600, 200);
     let cell = TAU / f64::from(heights * turns);
     let mut sum = 0.0;
@@ -36,8 +44,7 @@ fn integral(bsdf: &Bsdf, function: impl Fn(Vec3A) -> f64) -> f64 {
             let azimuth = TAU * (f64::from(j) + 0.5) / f64::from(turns);
             let radius = (1.0 - z * z).sqrt();
             let direction = DVec3::new(radius * azimuth.cos(), radius * azimuth.sin(), z).as_vec3a();
-            let [diffuse, glossy] = bsdf.value(direction);
-            sum += f64::from(diffuse.x + glossy.x) * function(direction);
+            sum += function(direction);
         }
     }
     sum * cell
@@ -151,6 +158,36 @@ fn halves_of_a_mixture_are_its_diffuse_and_its_specular_lobes() {
         assert_eq!(part.value(direction)[1 - kept], Vec3::ZERO);
         let mut stream = Stream::new(2, 0, 0);
         assert!((0..1000).filter_map(|_| part.sample(Vec3::ONE, &mut stream)).all(|s| s.scattering == half));
+    }
+}
+
+/// The density that is told of a direction is that with which it is chosen: over all directions it is the share of samples
+/// that a lobe gets, and the same for who asks as for who samples.
+#[test]
+fn directions_have_the_density_that_is_told() {
+    let lobes = Lobes {
+        diffuse: Vec3::new(0.3, 0.1, 0.2),
+        glossy: Vec3::new(0.1, 0.4, 0.3),
+        exponent: 5.0,
+        mirror: Vec3::splat(0.2),
+        ..Lobes::default()
+    };
+    let bsdf = Bsdf::new(&lobes, &plane(), slanted(0.7), 1.0);
+    let light = Vec3::new(1.0, 0.5, 0.25);
+    let mut stream = Stream::new(9, 0, 0);
+    let mut counts = [0; 2];
+    for _ in 0..COUNT {
+        let Some(sample) = bsdf.sample(light, &mut stream) else { continue };
+        let lobe = usize::from(sample.scattering == Scattering::Specular);
+        let expected = if sample.is_sharp { 0.0 } else { bsdf.densities(sample.direction, light)[lobe] };
+        assert!((sample.density - expected).abs() <= 1e-5 * expected, "{sample:?} {expected}");
+        counts[lobe] += u32::from(!sample.is_sharp);
+    }
+    let densities = |lobe: usize| over_directions(|direction| bsdf.densities(direction, light)[lobe].into());
+    for (lobe, count) in counts.into_iter().enumerate() {
+        let share = f64::from(count) / f64::from(COUNT);
+        let error = (share * (1.0 - share) / f64::from(COUNT)).sqrt();
+        assert!((share - densities(lobe)).abs() < 5.0 * error + 2e-3, "lobe {lobe}: {share} {}", densities(lobe));
     }
 }
 

@@ -90,6 +90,7 @@ fn solution(world: &World, radiosity: impl Fn(usize) -> Rgb) -> Solution {
         shooter: Some(0),
         light: ElementLight {
             irradiance: radiosity.clone(),
+            direct: radiosity.clone(),
             unshot: radiosity.iter().map(|&value| 0.2 * value).collect(),
             radiosity,
         },

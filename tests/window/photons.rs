@@ -42,6 +42,7 @@ fn settings_are_those_of_the_view() {
         "Samples",
         "Gather rays",
         "Shadow rays",
+        "Lamp rays",
         "Paths",
         "AO rays",
         "Fall-off",
@@ -58,16 +59,18 @@ fn settings_are_those_of_the_view() {
     expect(View::Smooth, &["Solver", "Shadow rays"]);
     expect(View::Photons, &["Photons", "For caustics", "Nearest", "Kernel", "Paths"]);
     let camera = View::Camera;
-    expect(camera(CameraView::RayTraced), &["Samples", "Shadow rays", "Paths"]);
+    expect(camera(CameraView::RayTraced), &["Samples", "Lamp rays", "Paths"]);
     expect(camera(CameraView::RadiositySpecular), &["Samples", "Shadow rays", "Solver"]);
+    expect(camera(CameraView::RadiosityDirect), &["Samples", "Lamp rays", "Shadow rays", "Solver"]);
     let photon_map = ["Photons", "For caustics", "Nearest", "Kernel", "Paths", "Samples"];
     expect(camera(CameraView::PhotonRadiance), &photon_map);
-    expect(camera(CameraView::FinalGather), &[&photon_map[..], &["Gather rays", "Shadow rays"]].concat());
+    expect(camera(CameraView::FinalGather), &[&photon_map[..], &["Gather rays", "Lamp rays"]].concat());
+    expect(camera(CameraView::Reference), &["Samples", "Paths"]);
     let occlusion = ["Samples", "AO rays", "Fall-off", "Distance"];
     expect(camera(CameraView::AmbientOcclusion), &occlusion);
     expect(View::OcclusionVertices, &["AO rays", "Fall-off", "Distance"]);
-    expect(camera(CameraView::Diffuse), &["Samples", "Shadow rays"]);
-    expect(camera(CameraView::DiffuseAmbient), &[&occlusion[..], &["Shadow rays"]].concat());
+    expect(camera(CameraView::Diffuse), &["Samples", "Lamp rays"]);
+    expect(camera(CameraView::DiffuseAmbient), &[&occlusion[..], &["Lamp rays"]].concat());
 }
 
 #[test]

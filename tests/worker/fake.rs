@@ -173,7 +173,12 @@ impl Method for Fake {
         let light = vec![Rgb::ZERO; self.elements];
         Solution {
             steps: self.steps,
-            light: ElementLight { irradiance: light.clone(), radiosity: light.clone(), unshot: light },
+            light: ElementLight {
+                irradiance: light.clone(),
+                direct: light.clone(),
+                radiosity: light.clone(),
+                unshot: light,
+            },
             ..Solution::default()
         }
     }

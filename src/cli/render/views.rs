@@ -106,7 +106,8 @@ impl Options {
             (Some(solved), _) => report(solved),
             (None, Some(photons)) => photon_report(world, &settings, photons),
             (None, None) => {
-                let method = if view.is_light() { "ray-tracing" } else { view.name() };
+                let is_classic = view.is_light() && view != CameraView::Reference;
+                let method = if is_classic { "ray-tracing" } else { view.name() };
                 json!({ "scene": world.scene.name, "method": method })
             }
         };

@@ -2,8 +2,8 @@
 
 use super::draws::Use;
 use super::eye_path::Tools;
-use crate::effects::Effect;
 use crate::math::rgb::Rgb;
+use crate::methods::shadows::is_lit;
 use crate::methods::transport::{Bsdf, LampPoint, Surface, Transport};
 
 /// Radiance that the diffuse lobe of a surface sends on of the light that comes straight from emitters, W/(m²·sr), by
@@ -28,24 +28,10 @@ pub fn random(transport: &Transport, surface: &Surface, bsdf: &Bsdf, tools: &mut
 
 /// What one point of an emitter stands for.
 fn from_point(transport: &Transport, surface: &Surface, bsdf: &Bsdf, lamp: &LampPoint, tools: &mut Tools<'_>) -> Rgb {
-    let way = lamp.point - surface.point;
-    let square = way.length_squared();
-    let direction = way / square.sqrt();
-    let cosine_at_lamp = -direction.dot(lamp.normal);
-    if lamp.polygon == surface.polygon || cosine_at_lamp.is_nan() || cosine_at_lamp <= 0.0 {
+    let Some(arrival) = lamp.arrival(surface) else { return Rgb::ZERO };
+    let [diffuse, _] = bsdf.value(arrival.direction);
+    if diffuse == Rgb::ZERO || !is_lit(transport, surface, lamp.point, tools.cost) {
         return Rgb::ZERO;
     }
-    let [diffuse, _] = bsdf.value(direction);
-    if diffuse == Rgb::ZERO {
-        return Rgb::ZERO;
-    }
-    if transport.effects.contains(Effect::Shadows) {
-        tools.cost.spend(Effect::Shadows, 1);
-        if !transport.sees(surface, lamp.point) {
-            return Rgb::ZERO;
-        }
-    } else {
-        tools.cost.save(Effect::Shadows, 1);
-    }
-    lamp.radiance * diffuse * (cosine_at_lamp / (square * lamp.density))
+    diffuse * arrival.radiance
 }

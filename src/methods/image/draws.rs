@@ -1,6 +1,6 @@
 //! The random numbers of one sample of one pixel.
 
-use crate::math::random::{Stream, hash, sobol2};
+use crate::math::random::{PaddedPoint, Stream, hash, sobol2};
 use glam::Vec2;
 
 /// Points of one low-discrepancy sequence; the next ones belong to another.
@@ -46,6 +46,11 @@ impl Draws {
         let index = self.sample * u64::from(count) + u64::from(i);
         let seed = hash(self.pixel, what as u64, index / SEQUENCE) as u32;
         sobol2((index % SEQUENCE) as u32, 0, seed)
+    }
+
+    /// Path `i` of `count` that each sample takes.
+    pub fn path(&self, i: u32, count: u32) -> PaddedPoint {
+        PaddedPoint::new(self.pixel, self.sample * u64::from(count) + u64::from(i))
     }
 
     /// The same as one number, with other points.

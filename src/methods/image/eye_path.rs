@@ -1,8 +1,8 @@
 //! The way of a ray from the eye over specular surfaces, to wherever light is known (Whitted 1980; Kajiya 1986).
 
-use super::cost::Cost;
 use super::draws::Draws;
 use crate::math::rgb::Rgb;
+use crate::methods::cost::Cost;
 use crate::methods::photon_map::Scratch;
 use crate::methods::transport::{Bsdf, Media, Surface, Transport};
 use crate::solution::{Path, PathMatcher, Scattering};

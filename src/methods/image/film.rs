@@ -1,11 +1,11 @@
 //! A picture in the making: coarse at first, then every pixel, then more samples of each.
 
-use super::cost::Cost;
 use super::draws::{Draws, Use};
 use super::eye_path::{Look, Sight, Tools};
 use crate::camera::{Camera, EyeRays};
 use crate::cancel::Cancel;
 use crate::math::rgb::Rgb;
+use crate::methods::cost::Cost;
 use crate::methods::photon_map::Scratch;
 use crate::methods::transport::Media;
 use glam::Vec2;

@@ -43,21 +43,34 @@ pub struct RadiosityLight {
     transport: Arc<Transport>,
     /// E, W/m².
     vertex_irradiance: Vec<Rgb>,
+    /// Where light straight from emitters is not read off: shadow rays to find it with.
+    light_rays: Option<u32>,
 }
 
 impl RadiosityLight {
     pub fn new(transport: Arc<Transport>, solution: &Solution) -> Self {
         let mut vertex_irradiance = Vec::new();
         transport.world.mesh.smooth(&solution.light.irradiance, &mut vertex_irradiance);
-        Self { transport, vertex_irradiance }
+        Self { transport, vertex_irradiance, light_rays: None }
+    }
+
+    /// Only the light between surfaces, which is smooth, is read off; shadows keep their edges by rays to the emitters
+    /// (Chen, Rushmeier, Miller, Turner 1991).
+    pub fn with_direct_rays(transport: Arc<Transport>, solution: &Solution, light_rays: u32) -> Self {
+        let parts = solution.light.irradiance.iter().zip(&solution.light.direct);
+        let indirect: Vec<Rgb> = parts.map(|(all, direct)| (*all - *direct).max(Rgb::ZERO)).collect();
+        let mut vertex_irradiance = Vec::new();
+        transport.world.mesh.smooth(&indirect, &mut vertex_irradiance);
+        Self { transport, vertex_irradiance, light_rays: Some(light_rays) }
     }
 }
 
 impl DiffuseLight for RadiosityLight {
-    fn leaving(&self, seen: &Seen<'_>, _tools: &mut Tools<'_>) -> Rgb {
+    fn leaving(&self, seen: &Seen<'_>, tools: &mut Tools<'_>) -> Rgb {
         let mesh = &self.transport.world.mesh;
         let location = mesh.locate(seen.surface.polygon, seen.surface.is_front, seen.surface.point);
         let irradiance = location.map_or(Rgb::ZERO, |location| mesh.interpolate(&location, &self.vertex_irradiance));
-        seen.bsdf.diffuse() * irradiance / PI
+        let direct = self.light_rays.map(|rays| direct_light(&self.transport, seen, rays, tools));
+        direct.unwrap_or_default() + seen.bsdf.diffuse() * irradiance / PI
     }
 }

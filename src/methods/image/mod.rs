@@ -4,7 +4,6 @@
 mod ambient;
 mod arrivals;
 mod contrast;
-mod cost;
 mod direct;
 mod draws;
 mod eye_path;
@@ -12,9 +11,11 @@ mod film;
 mod gather;
 mod lights;
 mod photon_light;
+mod reference;
 
 use crate::camera::Camera;
 use crate::cancel::Cancel;
+use crate::methods::path_trace::PathTracer;
 use crate::methods::photon_map::PhotonMaps;
 use crate::methods::transport::{Media, Transport};
 use crate::methods::{ImageSettings, Settings, Step};
@@ -47,6 +48,10 @@ impl Sources {
                 Box::new(DirectLight { transport, rays: settings.light_rays, matcher: settings.filter.matcher() })
             }
             CameraView::RadiositySpecular => Box::new(RadiosityLight::new(transport, self.radiosity.as_ref()?)),
+            CameraView::RadiosityDirect => {
+                let solution = self.radiosity.as_ref()?;
+                Box::new(RadiosityLight::with_direct_rays(transport, solution, settings.light_rays))
+            }
             CameraView::PhotonIrradiance => Box::new(self.photon_light(Shown::Irradiance, false, settings)?),
             CameraView::PhotonRadiance => Box::new(self.photon_light(Shown::Radiance, false, settings)?),
             CameraView::Caustics => Box::new(self.photon_light(Shown::Radiance, true, settings)?),
@@ -61,7 +66,8 @@ impl Sources {
             CameraView::AmbientOcclusion
             | CameraView::Diffuse
             | CameraView::DiffuseAmbient
-            | CameraView::AmbientMinusIndirect => return None,
+            | CameraView::AmbientMinusIndirect
+            | CameraView::Reference => return None,
         })
     }
 
@@ -77,6 +83,10 @@ impl Sources {
             CameraView::DiffuseAmbient => Parts::DiffuseAmbient,
             CameraView::AmbientMinusIndirect => {
                 return Some(Arc::new(ContrastLook::new(self.transport.clone(), settings)));
+            }
+            CameraView::Reference => {
+                let matcher = settings.image.filter.matcher();
+                return Some(Arc::new(PathTracer::new(self.transport.clone(), matcher)));
             }
             _ => return Some(Arc::new(self.eye_path(view, &settings.image)?)),
         };

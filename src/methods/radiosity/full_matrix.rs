@@ -136,28 +136,38 @@ impl FullMatrix {
         }
         self.steps += 1;
         if self.settings.solver == Solver::Jacobi && self.bounces.len() <= Solution::MAX_BOUNCES {
-            let irradiance = self.irradiance();
+            let [irradiance, _] = self.irradiance();
             self.keep_bounce(&irradiance);
         }
         Step::Advanced
     }
 
     fn keep_bounce(&mut self, irradiance: &[Rgb64]) {
-        let light = self.surfaces.light(&self.world.mesh, irradiance, &self.surfaces.exitance);
+        let light = self.surfaces.light(&self.world.mesh, irradiance, &[], &self.surfaces.exitance);
         self.bounces.push(Arc::new(light.radiosity));
     }
 
-    /// E of each element from what patches have sent, W/m²; where direct light is not simulated, without what was emitted.
-    fn irradiance(&self) -> Vec<Rgb64> {
+    /// E of each element from what patches have sent, and the direct part of it, W/m². Where direct light is not simulated,
+    /// there is none.
+    fn irradiance(&self) -> [Vec<Rgb64>; 2] {
         let elements = self.world.mesh.elements.len();
-        let Stage::Solving(matrix, relaxation) = &self.stage else { return vec![Rgb64::ZERO; elements] };
-        let is_direct_shown = self.surfaces.effects.contains(Effect::DirectLight);
-        let shown = |(sent, exitance): (&Rgb64, &Rgb64)| {
-            // Whatever a patch sends first, what it emits is a part of it.
-            if is_direct_shown || *sent == Rgb64::ZERO { *sent } else { *sent - *exitance }
-        };
-        let sent = relaxation.sent().iter().zip(&self.surfaces.exitance).map(shown);
-        let sent: Vec<Rgb64> = sent.zip(&matrix.closing).map(|(sent, closing)| sent * *closing).collect();
+        let dark = || vec![Rgb64::ZERO; elements];
+        let Stage::Solving(matrix, relaxation) = &self.stage else { return [dark(), dark()] };
+        // Whatever a patch sends first, what it emits is a part of it.
+        let emitted = |(sent, exitance): (&Rgb64, &Rgb64)| if *sent == Rgb64::ZERO { Rgb64::ZERO } else { *exitance };
+        let emitted: Vec<Rgb64> = relaxation.sent().iter().zip(&self.surfaces.exitance).map(emitted).collect();
+        if self.surfaces.effects.contains(Effect::DirectLight) {
+            return [self.brought(matrix, relaxation.sent()), self.brought(matrix, &emitted)];
+        }
+        let reflected: Vec<Rgb64> =
+            relaxation.sent().iter().zip(&emitted).map(|(sent, emitted)| *sent - *emitted).collect();
+        [self.brought(matrix, &reflected), dark()]
+    }
+
+    /// E of each element from so much radiosity of each patch, W/m².
+    fn brought(&self, matrix: &Matrix, sent: &[Rgb64]) -> Vec<Rgb64> {
+        let elements = self.world.mesh.elements.len();
+        let sent: Vec<Rgb64> = sent.iter().zip(&matrix.closing).map(|(sent, closing)| *sent * *closing).collect();
         let mut irradiance = vec![Rgb64::ZERO; elements];
         let chunk = elements.div_ceil(4 * rayon::current_num_threads()).max(1);
         // Each element's sum runs over the patches in their order, however the elements are shared out.
@@ -241,7 +251,7 @@ impl Method for FullMatrix {
 
     fn solution(&self) -> Solution {
         let mesh = &self.world.mesh;
-        let irradiance = self.irradiance();
+        let [irradiance, direct] = self.irradiance();
         let (unshot, sent, matrix) = match &self.stage {
             Stage::Building(_) => (self.surfaces.exitance.clone(), None, None),
             Stage::Solving(matrix, relaxation) => (relaxation.unshot().to_vec(), Some(relaxation.sent()), Some(matrix)),
@@ -278,7 +288,7 @@ impl Method for FullMatrix {
             unshot_share: self.surfaces.share_of_emitted(&unshot),
             mean_irradiance,
             shooter: self.shooter,
-            light: self.surfaces.light(mesh, &irradiance, &unshot),
+            light: self.surfaces.light(mesh, &irradiance, &direct, &unshot),
             ambient: self.surfaces.ambient(unshot_flux).as_vec3(),
             preparation: built,
             matrix: matrix.map(|matrix| matrix.patches.clone()),

@@ -27,8 +27,7 @@ pub struct Progressive {
     unshot: Vec<Rgb64>,
     /// E of each element, W/m².
     irradiance: Vec<Rgb64>,
-    /// Where direct light is not simulated: what is known of it, in order not to show it.
-    direct: Option<DirectLight>,
+    direct: DirectLight,
     /// Form factor from each element to the present shooter, with visibility.
     form_factors: Vec<f64>,
     ledger: Ledger,
@@ -52,12 +51,11 @@ impl Progressive {
         let surfaces = Surfaces::new(&world, simulated(&world, &settings));
         let elements = world.mesh.elements.len();
         let dark = vec![Rgb64::ZERO; elements];
-        let is_direct_shown = surfaces.effects.contains(Effect::DirectLight);
         let direct = DirectLight { exitance: surfaces.exitance.clone(), irradiance: dark.clone() };
         Self {
             unshot: surfaces.exitance.clone(),
             irradiance: dark,
-            direct: (!is_direct_shown).then_some(direct),
+            direct,
             form_factors: vec![0.0; elements],
             ledger: Ledger::default(),
             counters: Counters::default(),
@@ -77,16 +75,15 @@ impl Progressive {
         brightest.filter(|&(_, flux)| flux > 0.0).map(|(patch, _)| patch)
     }
 
-    /// E of each element as it is shown, W/m².
-    fn shown_irradiance(&self) -> Cow<'_, [Rgb64]> {
-        match &self.direct {
-            None => Cow::Borrowed(&self.irradiance),
-            Some(direct) => {
-                let all = self.irradiance.iter().zip(&direct.irradiance);
-                // Of what is direct alone, rounding must leave nothing below 0.
-                Cow::Owned(all.map(|(all, direct)| (*all - *direct).max(Rgb64::ZERO)).collect())
-            }
+    /// E of each element as it is shown, and the direct part of it, W/m².
+    fn shown_irradiance(&self) -> [Cow<'_, [Rgb64]>; 2] {
+        let direct = &self.direct.irradiance;
+        if self.surfaces.effects.contains(Effect::DirectLight) {
+            return [Cow::Borrowed(&self.irradiance), Cow::Borrowed(direct)];
         }
+        // Of what is direct alone, rounding must leave nothing below 0.
+        let indirect = self.irradiance.iter().zip(direct).map(|(all, direct)| (*all - *direct).max(Rgb64::ZERO));
+        [Cow::Owned(indirect.collect()), Cow::Owned(vec![Rgb64::ZERO; direct.len()])]
     }
 
     fn has_converged(&self) -> bool {
@@ -112,9 +109,9 @@ impl Progressive {
         let row = row_sum(&self.world.mesh, &self.form_factors) / area;
         let closing = self.ledger.close_row(radiosity * area, row, escaping);
         let scaled = radiosity * closing;
-        if let Some(DirectLight { exitance, irradiance }) = &mut self.direct {
-            let emitted = std::mem::take(&mut exitance[patch]) * closing;
-            for (irradiance, form_factor) in irradiance.iter_mut().zip(&self.form_factors) {
+        let emitted = std::mem::take(&mut self.direct.exitance[patch]) * closing;
+        if emitted != Rgb64::ZERO {
+            for (irradiance, form_factor) in self.direct.irradiance.iter_mut().zip(&self.form_factors) {
                 *irradiance += emitted * *form_factor;
             }
         }
@@ -199,6 +196,7 @@ impl Method for Progressive {
         let mesh = &self.world.mesh;
         let unshot = self.surfaces.flux(&self.unshot);
         let patch_irradiance = mesh.patch_means(&self.irradiance);
+        let [irradiance, direct] = self.shown_irradiance();
         Solution {
             steps: self.counters.updates,
             elapsed: Duration::ZERO,
@@ -214,7 +212,7 @@ impl Method for Progressive {
             unshot_share: self.surfaces.share_of_emitted(&self.unshot),
             mean_irradiance: self.surfaces.mean_irradiance(&patch_irradiance),
             shooter: self.shooter,
-            light: self.surfaces.light(mesh, &self.shown_irradiance(), &self.unshot),
+            light: self.surfaces.light(mesh, &irradiance, &direct, &self.unshot),
             ambient: self.surfaces.ambient(unshot).as_vec3(),
             ..Solution::default()
         }

@@ -136,8 +136,8 @@ impl Surfaces {
         if area > 0.0 { total(self.flux(irradiance)) / area } else { 0.0 }
     }
 
-    /// Light on elements, from their irradiance and the unshot radiosity of their patches, W/m².
-    pub fn light(&self, mesh: &Mesh, irradiance: &[Rgb64], unshot: &[Rgb64]) -> ElementLight {
+    /// Light on elements, from their irradiance, the part of it that is direct, and the unshot radiosity of their patches, W/m².
+    pub fn light(&self, mesh: &Mesh, irradiance: &[Rgb64], direct: &[Rgb64], unshot: &[Rgb64]) -> ElementLight {
         let elements = || mesh.elements.iter().zip(irradiance);
         let radiosity = elements().map(|(element, irradiance)| {
             let patch = element.patch as usize;
@@ -146,6 +146,7 @@ impl Surfaces {
         ElementLight {
             radiosity: radiosity.collect(),
             irradiance: irradiance.iter().map(|irradiance| irradiance.as_vec3()).collect(),
+            direct: direct.iter().map(|direct| direct.as_vec3()).collect(),
             unshot: mesh.elements.iter().map(|element| unshot[element.patch as usize].as_vec3()).collect(),
         }
     }

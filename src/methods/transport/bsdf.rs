@@ -8,7 +8,7 @@ use crate::math::rgb::Rgb;
 use crate::math::warp::{cosine_hemisphere, frame};
 use crate::scene::Lobes;
 use crate::solution::Scattering;
-use glam::Vec3A;
+use glam::{Vec2, Vec3A};
 use std::f32::consts::PI;
 
 /// Lobes at a place, for light that leaves to, or arrives from, one direction.
@@ -44,6 +44,8 @@ pub struct Sample {
     pub scattering: Scattering,
     /// Whether it went through the surface.
     pub crosses: bool,
+    /// The density with which this direction is chosen by way of the lobe that chose it, 1/sr: 0 where directions have none.
+    pub density: f32,
     /// Whether directions have no density: mirror and glass.
     pub is_sharp: bool,
 }
@@ -176,13 +178,29 @@ impl Bsdf {
         [self.diffuse * (cosine / PI), glossy]
     }
 
-    /// A direction in which light goes on. The lobe is chosen in proportion to what it does with `light`, the light that is
-    /// to be scattered, per channel; `None` where no lobe does anything, or where the direction leads into the surface.
-    pub fn sample(&self, light: Rgb, stream: &mut Stream) -> Option<Sample> {
+    /// The densities, 1/sr, with which [`Bsdf::sample`] chooses a direction by way of the diffuse lobe and of the glossy one.
+    pub fn densities(&self, direction: Vec3A, light: Rgb) -> [f32; 2] {
         let share = |lobe| (light * self.share(lobe)).max_element();
         let all: f32 = LOBES.iter().map(|&lobe| share(lobe)).sum();
-        let mut choice = stream.uniform() * all;
-        let at = stream.uniform2();
+        if all <= 0.0 {
+            return [0.0; 2];
+        }
+        let density = |lobe| if share(lobe) > 0.0 { share(lobe) / all * self.density(lobe, direction) } else { 0.0 };
+        [density(Lobe::Diffuse), density(Lobe::Glossy)]
+    }
+
+    /// A direction in which light goes on, by random numbers: see [`Bsdf::sample_at`].
+    pub fn sample(&self, light: Rgb, stream: &mut Stream) -> Option<Sample> {
+        self.sample_at(light, stream.uniform(), stream.uniform2())
+    }
+
+    /// A direction in which light goes on, for numbers in [0, 1). The lobe is chosen in proportion to what it does with
+    /// `light`, the light that is to be scattered, per channel; `None` where no lobe does anything, or where the direction
+    /// leads into the surface.
+    pub fn sample_at(&self, light: Rgb, choice: f32, at: Vec2) -> Option<Sample> {
+        let share = |lobe| (light * self.share(lobe)).max_element();
+        let all: f32 = LOBES.iter().map(|&lobe| share(lobe)).sum();
+        let mut choice = choice * all;
         let mut chosen = None;
         for lobe in LOBES {
             let share = share(lobe);
@@ -202,12 +220,22 @@ impl Bsdf {
             narrowing: if lobe == Lobe::Refracted { 1.0 / (self.index * self.index) } else { 1.0 },
             scattering: if lobe == Lobe::Diffuse { Scattering::Diffuse } else { Scattering::Specular },
             crosses: matches!(lobe, Lobe::Refracted | Lobe::Straight),
+            density: share / all * self.density(lobe, direction),
             is_sharp: !matches!(lobe, Lobe::Diffuse | Lobe::Glossy),
         })
     }
 
+    /// The density of a lobe's directions, 1/sr: 0 where they have none.
+    fn density(&self, lobe: Lobe, direction: Vec3A) -> f32 {
+        match lobe {
+            Lobe::Diffuse => direction.dot(self.normal).max(0.0) / PI,
+            Lobe::Glossy => phong::density(reflect(self.towards, self.normal), direction, self.exponent),
+            Lobe::Mirror | Lobe::Reflected | Lobe::Refracted | Lobe::Straight => 0.0,
+        }
+    }
+
     /// A direction of a lobe, and the factor on the lobe's share that makes its expectation right.
-    fn direction(&self, lobe: Lobe, at: glam::Vec2) -> Option<(Vec3A, f32)> {
+    fn direction(&self, lobe: Lobe, at: Vec2) -> Option<(Vec3A, f32)> {
         match lobe {
             Lobe::Diffuse => {
                 let direction = frame(self.normal) * cosine_hemisphere(at);

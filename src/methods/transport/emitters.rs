@@ -1,6 +1,6 @@
 //! Emitters: where light starts, and where shadow rays go.
 
-use super::Media;
+use super::{Media, Surface};
 use crate::math::random::{hash, sobol2};
 use crate::math::rgb::{Rgb, Rgb64, total};
 use crate::math::warp::{cosine_hemisphere, frame};
@@ -58,6 +58,32 @@ pub struct LampPoint {
     pub radiance: Rgb,
     /// 1/m²
     pub density: f32,
+}
+
+/// The light that a point of an emitter sends to a place, if nothing is between.
+#[derive(Clone, Copy, Debug)]
+pub struct Arrival {
+    /// Unit vector towards the point.
+    pub direction: Vec3A,
+    /// L over `density`: times f |cos θ|, its expectation is the radiance that the place sends on, W/(m²·sr).
+    pub radiance: Rgb,
+    /// Of the choice of the direction, 1/sr.
+    pub density: f32,
+}
+
+impl LampPoint {
+    /// `None` where the place is behind the emitter, or a part of it.
+    pub fn arrival(&self, surface: &Surface) -> Option<Arrival> {
+        let way = self.point - surface.point;
+        let square = way.length_squared();
+        let direction = way / square.sqrt();
+        let cosine = -direction.dot(self.normal);
+        if self.polygon == surface.polygon || cosine.is_nan() || cosine <= 0.0 {
+            return None;
+        }
+        let density = self.density * square / cosine;
+        Some(Arrival { direction, radiance: self.radiance / density, density })
+    }
 }
 
 impl Emitters {
@@ -139,6 +165,15 @@ impl Emitters {
             radiance: lamp.radiance,
             density: (lamp.chance / lamp.area) as f32,
         })
+    }
+
+    /// The density, 1/sr, with which [`Emitters::point`] chooses the direction of a ray that met the front of an emitter, with
+    /// this emission.
+    pub fn density(&self, emission: Rgb, surface: &Surface, direction: Vec3A) -> f32 {
+        // Chosen by flux, the same for all points of all triangles with this emission.
+        let density = PI * total(emission.as_dvec3()) / total(self.flux);
+        let cosine = -direction.dot(surface.facing);
+        density as f32 * surface.distance * surface.distance / cosine.max(f32::MIN_POSITIVE)
     }
 
     fn choose(&self, choice: f64) -> Option<&Lamp> {

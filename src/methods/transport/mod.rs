@@ -10,7 +10,7 @@ mod phong;
 mod surface;
 
 pub use bsdf::{Bsdf, Sample};
-pub use emitters::{Emission, Emitters, LampPoint};
+pub use emitters::{Arrival, Emission, Emitters, LampPoint};
 pub use filter::colour;
 pub use fresnel::{fresnel_reflectance, reflect, refract};
 pub use media::Media;

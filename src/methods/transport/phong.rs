@@ -12,6 +12,11 @@ pub fn value(mirror: Vec3A, direction: Vec3A, exponent: f32) -> f32 {
     if cosine > 0.0 { (exponent + 2.0) / TAU * cosine.powf(exponent) } else { 0.0 }
 }
 
+/// The density with which [`sample`] chooses a direction, 1/sr.
+pub fn density(mirror: Vec3A, direction: Vec3A, exponent: f32) -> f32 {
+    (exponent + 1.0) / (exponent + 2.0) * value(mirror, direction, exponent)
+}
+
 /// A direction round the mirror direction with a density in proportion to cosⁿ; it may lie below the horizon.
 pub fn sample(mirror: Vec3A, exponent: f32, at: Vec2) -> Vec3A {
     let cosine = (1.0 - at.x).powf(1.0 / (exponent + 1.0));

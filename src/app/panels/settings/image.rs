@@ -11,7 +11,7 @@ pub fn show(ui: &mut Ui, view: CameraView, settings: Settings, actions: &mut Vec
     if view == CameraView::FinalGather {
         gather_rays(ui, settings, actions);
     }
-    if view.samples_emitters() || view == CameraView::RadiositySpecular {
+    if view.samples_emitters() {
         light_rays(ui, settings, actions);
     }
 }
@@ -32,6 +32,6 @@ fn gather_rays(ui: &mut Ui, mut settings: Settings, actions: &mut Vec<Action>) {
 fn light_rays(ui: &mut Ui, mut settings: Settings, actions: &mut Vec<Action>) {
     let hover = "Shadow rays to the emitters at every place that is seen";
     let range = 1..=ImageSettings::MAX_LIGHT_RAYS;
-    let response = count(ui, "Shadow rays", hover, &mut settings.image.light_rays, range);
+    let response = count(ui, "Lamp rays", hover, &mut settings.image.light_rays, range);
     apply_when_done(&response, settings, actions);
 }

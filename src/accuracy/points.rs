@@ -1,0 +1,74 @@
+//! Where accuracy is measured: points spread by area over all sides that light reaches, the same for every mesh.
+
+use crate::math::random::{PaddedPoint, hash};
+use crate::mesh::Region;
+use crate::world::{World, is_covered};
+use glam::{Vec2, Vec3A};
+
+/// Marks this use of (seed, index) among the others.
+const PASS: u64 = 0x7072_6f62_6573;
+/// So many points are tried for each that is found: where most of what is reached is covered, there are fewer.
+const TRIES: usize = 16;
+
+/// A point of a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ProbePoint {
+    pub point: Vec3A,
+    /// Unit normal of the side.
+    pub normal: Vec3A,
+}
+
+/// A part of a side.
+struct Triangle {
+    region: Region,
+    normal: Vec3A,
+    /// Area of it and all before it, m².
+    cumulative: f64,
+}
+
+/// `count` points, or fewer where next to nothing is exposed: low-discrepancy by area, but not where something stands on the
+/// surface.
+pub fn spread(world: &World, count: usize, seed: u64) -> Vec<ProbePoint> {
+    let triangles = triangles(world);
+    let Some(area) = triangles.last().map(|last| last.cumulative).filter(|area| *area > 0.0) else {
+        return Vec::new();
+    };
+    let is_exposed = |found: &ProbePoint| {
+        let lifted = world.tracer.lift(found.point, found.normal);
+        !is_covered(&world.mesh, &world.tracer, lifted, found.normal)
+    };
+    let at = |index: usize| {
+        let [which, u, v, _] = PaddedPoint::new(hash(seed, PASS, 0), index as u64).four(0);
+        let along = f64::from(which) * area;
+        let place = triangles.partition_point(|triangle| triangle.cumulative <= along).min(triangles.len() - 1);
+        let triangle = &triangles[place];
+        let point = triangle.region.sampler(Vec3A::ZERO).point(Vec2::new(u, v));
+        ProbePoint { point, normal: triangle.normal }
+    };
+    (0..TRIES * count).map(at).filter(is_exposed).take(count).collect()
+}
+
+/// Of all sides that are meshed, in their order.
+fn triangles(world: &World) -> Vec<Triangle> {
+    let mut triangles = Vec::new();
+    let mut cumulative = 0.0;
+    for (index, side) in world.mesh.sides.iter().enumerate() {
+        if side.is_none() {
+            continue;
+        }
+        let corners = world.scene.polygons[index / 2].corners();
+        for pair in corners[1..].windows(2) {
+            let [a, b, c] =
+                [corners[0], pair[0], pair[1]].map(|corner| Vec3A::from(world.scene.positions[corner as usize]));
+            let double = (b - a).cross(c - a).as_dvec3();
+            let front = double.normalize_or_zero().as_vec3a();
+            cumulative += 0.5 * double.length();
+            triangles.push(Triangle {
+                region: Region::new([a, b, c, c], 3),
+                normal: if index % 2 == 0 { front } else { -front },
+                cumulative,
+            });
+        }
+    }
+    triangles
+}

@@ -1,0 +1,98 @@
+//! What was found at points, printed as a table or as JSON.
+
+use super::super::CliError;
+use super::points::Sensor;
+use crate::math::rgb::Rgb;
+use serde_json::{Value, json};
+use std::io::Write;
+
+/// What was found at a point, and how good it is.
+pub struct Measured {
+    pub sensor: Sensor,
+    /// The irradiance, W/m², or the share of ambient light that arrives.
+    pub value: Rgb,
+    pub quality: Quality,
+}
+
+pub enum Quality {
+    /// Of radiosity, which does not tell.
+    Unknown,
+    /// Of an estimate from the photons within a radius, m.
+    Estimate { relative_error: f32, radius: f32, photons: u32 },
+    /// Of a mean over passes: its standard error, W/m², by channel.
+    Mean { standard_error: [f64; 3], passes: u64 },
+    /// Of a mean over paths: its standard error, W/m², by channel.
+    Paths { standard_error: [f64; 3], paths: u64 },
+    /// Of a share: its standard error, the same in all channels.
+    Share { standard_error: f64, rays: u64 },
+}
+
+pub fn print(measured: &[Measured], as_json: bool) -> Result<(), CliError> {
+    let mut out = std::io::BufWriter::new(std::io::stdout().lock());
+    if as_json {
+        let points: Vec<Value> = measured.iter().map(Measured::json).collect();
+        writeln!(out, "{}", json!({ "points": points }))?;
+    } else {
+        let columns = measured.first().map_or("", |first| first.quality.columns());
+        writeln!(out, "x,y,z,nx,ny,nz,r,g,b{columns}")?;
+        for Measured { sensor: (point, normal), value, quality } in measured {
+            let numbers = [*point, *normal, *value].map(|v| format!("{},{},{}", v.x, v.y, v.z));
+            writeln!(out, "{}{}", numbers.join(","), quality.values())?;
+        }
+    }
+    out.flush()?;
+    Ok(())
+}
+
+impl Measured {
+    fn json(&self) -> Value {
+        let (point, normal) = self.sensor;
+        let mut object = json!({ "point": point.to_array(), "normal": normal.to_array() });
+        let what = if let Quality::Share { .. } = self.quality { "share" } else { "irradiance" };
+        object[what] = json!(self.value.to_array());
+        match self.quality {
+            Quality::Unknown => {}
+            Quality::Estimate { relative_error, radius, photons } => {
+                object["relative_error"] = json!(relative_error);
+                object["radius"] = json!(radius);
+                object["photons"] = json!(photons);
+            }
+            Quality::Mean { standard_error, passes } => {
+                object["standard_error"] = json!(standard_error);
+                object["passes"] = json!(passes);
+            }
+            Quality::Paths { standard_error, paths } => {
+                object["standard_error"] = json!(standard_error);
+                object["paths"] = json!(paths);
+            }
+            Quality::Share { standard_error, rays } => {
+                object["standard_error"] = json!(standard_error);
+                object["rays"] = json!(rays);
+            }
+        }
+        object
+    }
+}
+
+impl Quality {
+    /// Names of further columns of the table.
+    fn columns(&self) -> &'static str {
+        match self {
+            Self::Unknown => "",
+            Self::Estimate { .. } => ",relative_error,radius,photons",
+            Self::Mean { .. } => ",r_error,g_error,b_error,passes",
+            Self::Paths { .. } => ",r_error,g_error,b_error,paths",
+            Self::Share { .. } => ",standard_error,rays",
+        }
+    }
+
+    fn values(&self) -> String {
+        match self {
+            Self::Unknown => String::new(),
+            Self::Estimate { relative_error, radius, photons } => format!(",{relative_error},{radius},{photons}"),
+            Self::Mean { standard_error: [r, g, b], passes } => format!(",{r},{g},{b},{passes}"),
+            Self::Paths { standard_error: [r, g, b], paths } => format!(",{r},{g},{b},{paths}"),
+            Self::Share { standard_error, rays } => format!(",{standard_error},{rays}"),
+        }
+    }
+}

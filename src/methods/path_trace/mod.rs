@@ -1,0 +1,202 @@
+//! The rendering equation as it is, without a bias (Kajiya 1986): paths from the eye, or from a point of a surface, that go on
+//! at random, with a ray to an emitter at every place, each weighted by how well it finds what it finds (Veach, Guibas 1995).
+
+mod sensors;
+
+pub use sensors::{Sensor, Sensors};
+
+use super::cost::Cost;
+use super::shadows::is_lit;
+use super::transport::{Bsdf, Media, Surface, Transport};
+use crate::effects::{Effect, Effects, needed};
+use crate::math::random::PaddedPoint;
+use crate::math::rgb::Rgb;
+use crate::scene::Lobes;
+use crate::solution::{Path, PathMatcher, Scattering};
+use crate::tracer::Ray;
+use glam::Vec2;
+use std::f32::consts::PI;
+use std::sync::Arc;
+
+/// From this event on, what carries little light is ended at random.
+const ROULETTE: u64 = 4;
+/// Nothing goes on for certain then, so that all ends.
+const MOST_SURVIVAL: f32 = 0.95;
+/// A path takes four numbers for its rays to emitters, and four for the way on, at each event; the first set is its beginner's.
+const SETS_OF_EVENT: u64 = 2;
+
+/// Finds the light that arrives along rays, or at points.
+pub struct PathTracer {
+    transport: Arc<Transport>,
+    /// Which paths count.
+    matcher: PathMatcher,
+    effects: Effects,
+    /// Whether every path counts.
+    counts_all: bool,
+    /// Whether rays that go on by chance may find emitters. They always see what stands in the way, so that they are of no
+    /// use where shadows are left out.
+    meets_emitters: bool,
+}
+
+/// A place on a path, and what it sends on to where the path came from.
+struct Vertex {
+    surface: Surface,
+    bsdf: Bsdf,
+    media: Media,
+    /// Events before it, from the eye on.
+    to_eye: Path,
+}
+
+impl PathTracer {
+    /// With the effects that `transport` simulates.
+    pub fn new(transport: Arc<Transport>, matcher: PathMatcher) -> Self {
+        let effects = transport.effects;
+        Self::with_effects(transport, matcher, effects)
+    }
+
+    /// Of all light, but for what comes straight from an emitter to the first diffuse surface.
+    pub fn of_indirect_light(transport: Arc<Transport>) -> Self {
+        let effects = transport.effects.but(Effects::of(&[Effect::DirectLight]));
+        Self::with_effects(transport, PathMatcher::default(), effects)
+    }
+
+    fn with_effects(transport: Arc<Transport>, matcher: PathMatcher, effects: Effects) -> Self {
+        let apart = Effects::of(&[Effect::DirectLight, Effect::Interreflection, Effect::Caustics]);
+        let needed = needed(&transport.world);
+        Self {
+            counts_all: matcher.passes_all() && apart.among(needed).but(effects).is_empty(),
+            meets_emitters: effects.contains(Effect::Shadows) || !needed.contains(Effect::Shadows),
+            matcher,
+            effects,
+            transport,
+        }
+    }
+
+    pub fn transport(&self) -> &Transport {
+        &self.transport
+    }
+
+    /// L, W/(m²·sr), that arrives along a ray which starts in this glass; `None` where it meets no surface.
+    pub fn radiance(&self, ray: &Ray, media: Media, point: &PaddedPoint, cost: &mut Cost) -> Option<Rgb> {
+        cost.look();
+        let surface = self.transport.meet(ray)?;
+        let emitted = if self.counts(Path::LIGHT) { self.transport.emission(&surface) } else { Rgb::ZERO };
+        let vertex = self.vertex(surface, ray, media, Path::LIGHT, cost);
+        Some(emitted + self.sent_on(vertex, point, cost))
+    }
+
+    /// E, W/m², on the side of a surface that it faces, whatever its material is.
+    pub fn irradiance(&self, surface: &Surface, media: Media, point: &PaddedPoint, cost: &mut Cost) -> Rgb {
+        // A white surface sends on all that arrives: B = E, and L = B/π.
+        let white = Lobes { diffuse: Rgb::ONE, ..Lobes::default() };
+        let bsdf = Bsdf::new(&white, surface, surface.normal, 1.0);
+        PI * self.sent_on(Vertex { surface: *surface, bsdf, media, to_eye: Path::LIGHT }, point, cost)
+    }
+
+    /// L, W/(m²·sr), that a place sends on of all light that arrives there, by one path.
+    fn sent_on(&self, mut vertex: Vertex, point: &PaddedPoint, cost: &mut Cost) -> Rgb {
+        let (mut sum, mut throughput) = (Rgb::ZERO, Rgb::ONE);
+        for event in 0.. {
+            let set = 1 + SETS_OF_EVENT * event;
+            sum += throughput * self.straight_from_emitters(&vertex, throughput, point.four(set), cost);
+            let [choice, u, v, survives] = point.four(set + 1);
+            let Some(sample) = vertex.bsdf.sample_at(throughput, choice, Vec2::new(u, v)) else { break };
+            throughput *= sample.weight * sample.narrowing;
+            if event >= ROULETTE {
+                let survival = throughput.max_element().min(MOST_SURVIVAL);
+                if survives >= survival {
+                    break;
+                }
+                throughput /= survival;
+            }
+            let spreads = self.effects.contains(Effect::Interreflection);
+            cost.spend(if spreads { sample.effect() } else { without_interreflection(sample.effect()) }, 1);
+            let ray = self.transport.leave(&vertex.surface, sample.direction);
+            let Some(surface) = self.transport.meet(&ray) else { break };
+            let to_eye = vertex.to_eye.then(sample.scattering);
+            let media =
+                if sample.crosses { self.transport.media_behind(&vertex.surface, vertex.media) } else { vertex.media };
+            let emission = self.transport.emission(&surface);
+            if emission != Rgb::ZERO && self.counts(to_eye) {
+                let share = if sample.is_sharp {
+                    1.0
+                } else if self.meets_emitters {
+                    let other = self.transport.emitters().density(emission, &surface, ray.direction);
+                    power_share(sample.density, other)
+                } else {
+                    0.0
+                };
+                sum += throughput * share * emission;
+            }
+            vertex = self.vertex(surface, &ray, media, to_eye, cost);
+        }
+        sum
+    }
+
+    /// Where a ray met a surface, without the lobes that lead to nothing that counts.
+    fn vertex(&self, surface: Surface, ray: &Ray, media: Media, to_eye: Path, cost: &mut Cost) -> Vertex {
+        for effect in self.transport.skipped(&surface).iter() {
+            cost.save(effect, 1);
+        }
+        let mut bsdf = self.transport.bsdf(&surface, -ray.direction, &media);
+        let spreads = self.effects.contains(Effect::Interreflection);
+        if !spreads && to_eye.diffuse_count() > 0 && bsdf.diffuse() != Rgb::ZERO {
+            cost.save(Effect::Interreflection, 1);
+            bsdf = bsdf.only(Scattering::Specular);
+        }
+        Vertex { surface, bsdf, media, to_eye }
+    }
+
+    /// L, W/(m²·sr), that a place sends on of the light of a point of an emitter.
+    fn straight_from_emitters(
+        &self,
+        vertex: &Vertex,
+        throughput: Rgb,
+        [choice, u, v, _]: [f32; 4],
+        cost: &mut Cost,
+    ) -> Rgb {
+        let lamp = self.transport.emitters().point(choice, Vec2::new(u, v));
+        let arrival = lamp.and_then(|lamp| lamp.arrival(&vertex.surface));
+        let (Some(lamp), Some(arrival)) = (lamp, arrival) else { return Rgb::ZERO };
+        let values = vertex.bsdf.value(arrival.direction);
+        let densities = vertex.bsdf.densities(arrival.direction, throughput);
+        let mut value = Rgb::ZERO;
+        for ((of_lobe, density), scattering) in values.into_iter().zip(densities).zip(Scattering::ALL) {
+            if of_lobe != Rgb::ZERO && self.counts(vertex.to_eye.then(scattering)) {
+                let share = if self.meets_emitters { power_share(arrival.density, density) } else { 1.0 };
+                value += share * of_lobe;
+            }
+        }
+        if value == Rgb::ZERO || !is_lit(&self.transport, &vertex.surface, lamp.point, cost) {
+            return Rgb::ZERO;
+        }
+        value * arrival.radiance
+    }
+
+    /// Whether light counts that came to the eye by this path, from the eye on.
+    fn counts(&self, to_eye: Path) -> bool {
+        self.counts_all || (self.is_simulated(to_eye) && self.matcher.passes(Path::LIGHT, None, to_eye))
+    }
+
+    /// Whether the effect is simulated that a path is an instance of.
+    fn is_simulated(&self, to_eye: Path) -> bool {
+        match (to_eye.diffuse_count(), to_eye.last()) {
+            (0, _) | (_, None) => true,
+            (_, Some(Scattering::Specular)) => self.effects.contains(Effect::Caustics),
+            (1, Some(Scattering::Diffuse)) => self.effects.contains(Effect::DirectLight),
+            (_, Some(Scattering::Diffuse)) => self.effects.contains(Effect::Interreflection),
+        }
+    }
+}
+
+/// Where there is no light between surfaces, a diffuse ray looks for emitters alone.
+fn without_interreflection(effect: Effect) -> Effect {
+    if effect == Effect::Interreflection { Effect::DirectLight } else { effect }
+}
+
+/// The weight of what one of two ways to choose a direction found, by the densities of both (Veach's power heuristic, β = 2).
+fn power_share(own: f32, other: f32) -> f32 {
+    // As a quotient, since squares of densities overflow.
+    let quotient = other / own;
+    if own > 0.0 { 1.0 / (1.0 + quotient * quotient) } else { 0.0 }
+}

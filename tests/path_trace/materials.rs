@@ -1,0 +1,86 @@
+//! Every material in a furnace: where all surfaces send the same light, it cannot be seen.
+
+use crate::{assert_all_near, scene, shapes, unit_box};
+use glam::{Vec3, Vec3A};
+use lightwell::math::random::{PaddedPoint, Stream};
+use lightwell::math::rgb::Rgb;
+use lightwell::math::stats::Moments;
+use lightwell::methods::Cost;
+use lightwell::methods::path_trace::PathTracer;
+use lightwell::methods::transport::{Media, Transport};
+use lightwell::solution::PathMatcher;
+use lightwell::tracer::Ray;
+use std::sync::Arc;
+
+/// Walls that send a radiance of 2, and what a ball sends besides what it reflects or lets through of that.
+const MTL: &str = "\
+newmtl wall\nKd 0.5 0.5 0.5\nKe 1 1 1\nnewmtl even\nKd 0 0 0\nKe 2 2 2
+newmtl diffuse\nKd 0.25 0.5 0.75\nKe 1.5 1 0.5\nnewmtl mirror\nKd 0 0 0\nKs 1 1 1\nillum 3
+newmtl half-mirror\nKd 0.5 0.5 0.5\nKs 0.25 0.25 0.25\nKe 0.5 0.5 0.5\nillum 3
+newmtl glass\nKd 0 0 0\nNi 1.5\nillum 7\nnewmtl pane\nKd 0 0 0\nd 0\nillum 1
+newmtl gloss\nKd 0.25 0.25 0.25\nKs 0.5 0.25 0.5\nNs 20\nnewmtl dull\nKd 0 0 0\nKs 0.5 0.5 0.5\nNs 1\n";
+
+/// A ball of flat facets in the middle of the box.
+fn box_with_ball(material: &str) -> Arc<Transport> {
+    let mut text = unit_box(["wall"; 6]) + &format!("usemtl {material}\n");
+    for corner in shapes::sphere(2).iter().flatten() {
+        let at = Vec3::splat(0.5) + 0.3 * *corner;
+        text += &format!("v {} {} {}\n", at.x, at.y, at.z);
+    }
+    for face in 0..shapes::sphere(2).len() {
+        text += &format!("f {} {} {}\n", 9 + 3 * face, 10 + 3 * face, 11 + 3 * face);
+    }
+    scene(&text, MTL)
+}
+
+/// Mean radiance along rays, by channel, of one path each.
+fn radiance(transport: &Arc<Transport>, count: u64, ray: impl Fn(&mut Stream) -> Ray) -> [Moments; 3] {
+    let tracer = PathTracer::new(transport.clone(), PathMatcher::default());
+    let mut channels = [Moments::default(); 3];
+    for index in 0..count {
+        let ray = ray(&mut Stream::new(5, 6, index));
+        let found = tracer.radiance(&ray, Media::default(), &PaddedPoint::new(7, index), &mut Cost::default());
+        for (channel, value) in channels.iter_mut().zip(found.expect("a closed room").to_array()) {
+            channel.add(value.into());
+        }
+    }
+    channels
+}
+
+#[test]
+fn no_material_can_be_seen_in_a_furnace() {
+    for material in ["diffuse", "mirror", "half-mirror", "glass", "pane"] {
+        let transport = box_with_ball(material);
+        let from_a_corner = |stream: &mut Stream| {
+            let target = Vec3A::splat(0.5) + 0.6 * (Vec3A::from((stream.uniform2(), stream.uniform())) - 0.5);
+            let origin = Vec3A::splat(0.05);
+            Ray { origin, direction: (target - origin).normalize() }
+        };
+        let found = radiance(&transport, 200_000, from_a_corner);
+        println!("{material}: {found:?}");
+        assert_all_near(&found, Rgb::splat(2.0));
+        let error = found[0].standard_error();
+        assert!(error < 0.02, "{material}: too noisy to tell: {error}");
+    }
+}
+
+/// A Phong lobe along the normal reflects all of its share, and what falls on it there is the same from everywhere. Light
+/// that grazes it is cut at the horizon: of n = 1, its lobe keeps 1/π.
+#[test]
+fn gloss_reflects_what_its_lobe_keeps_of_an_even_light() {
+    for (material, direction, expected) in [
+        ("gloss", Vec3A::NEG_Y, Rgb::new(1.5, 1.0, 1.5)),
+        ("dull", Vec3A::NEG_Y, Rgb::splat(1.0)),
+        ("dull", Vec3A::new(1.0, -1e-3, 0.0).normalize(), Rgb::splat(1.0 / std::f32::consts::PI)),
+    ] {
+        let transport = scene(&unit_box(["even", "even", material, "even", "even", "even"]), MTL);
+        let origin = Vec3A::new(0.5, 0.0, 0.5) - direction * 0.3;
+        let found = radiance(&transport, 40_000, |_| Ray { origin, direction });
+        // The grazing ray comes in at 1e-3 above the horizon, which changes the lobe by about as much.
+        for (channel, expected) in found.iter().zip(expected.as_dvec3().to_array()) {
+            let miss = (channel.mean() - expected).abs();
+            assert!(miss < 5.0 * channel.standard_error() + 2e-3 * expected, "{material}: {channel:?}, {expected}");
+            assert!(channel.standard_error() < 0.01, "{material}: {channel:?}");
+        }
+    }
+}
