@@ -296,7 +296,7 @@ impl Assembler {
                 FindingKind::NoEmitter,
                 "the scene",
                 "no surface emits light",
-                "it stays dark unless a ceiling light is added",
+                "it stays dark unless a ceiling light is added; ambient occlusion needs none",
             ));
         }
         scene

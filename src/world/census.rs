@@ -179,14 +179,18 @@ mod tests {
         (0..7).map(count).min().expect("some times")
     }
 
+    /// Opening a scene is the least that the first second's work begins with. Measured beside it, so that a busy machine
+    /// slows down both.
     #[test]
-    fn counting_takes_less_than_a_hundredth_of_the_first_second() {
+    fn counting_takes_less_than_a_hundredth_of_opening_a_scene() {
         let scenes = BUILTINS.iter().map(|builtin| Scene::open(builtin.name).expect("a built-in scene"));
         for scene in scenes.chain([ball()]) {
+            let start = Instant::now();
             let world = World::build(scene, &MeshSettings::default(), &Cancel::default()).expect("a world");
-            let price = price(&world);
-            println!("{}: {} polygons counted in {price:?}", world.scene.name, world.scene.polygons.len());
-            assert!(price < Duration::from_millis(10), "{}: {price:?}", world.scene.name);
+            let (whole, price) = (start.elapsed(), price(&world));
+            let (name, polygons) = (&world.scene.name, world.scene.polygons.len());
+            println!("{name}: {polygons} polygons counted in {price:?}, opened in {whole:?}");
+            assert!(100 * price < whole, "{name}: {price:?} of {whole:?}");
         }
     }
 }

@@ -6,8 +6,8 @@
 //! from an emitter by a free line of sight: no chain of guesses, every step is a ray, so nothing that is shut off is
 //! ever taken for reached. Both kinds of walk together find what is small or hard to get into.
 //!
-//! Where no emitter lights anything, walks start from what the eye sees, and the even light of the sky may come from anywhere: a shell
-//! from which a walk leaves the scene is reached, too.
+//! Where no emitter lights anything, walks start from what the eye sees, and the even light of the sky may come from
+//! anywhere: a shell from which a walk leaves the scene is reached, too.
 
 use super::TOUCHING;
 use super::shells::shells;

@@ -46,8 +46,8 @@ fn effects_have_switches_where_the_view_tells_them_apart() {
         assert_eq!(node.toggled(), Some(if entry { Toggled::True } else { Toggled::False }), "{effect:?}");
     }
     harness.get_by_label("This scene suits radiosity.");
-    // 29.4 of 31 million rays, of 3 s.
-    harness.get_by_label(&thin("29.4_M rays, 2.85_s"));
+    // 29.4 million rays of 50 ns.
+    harness.get_by_label(&thin("29.4_M rays, ≈ 1.47_s"));
 }
 
 #[test]

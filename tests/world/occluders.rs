@@ -53,17 +53,23 @@ fn a_room_has_some_where_it_is_folded_inwards_at_any_scale_and_place() {
 }
 
 #[test]
-fn what_stands_in_a_room_is_one_and_what_stands_behind_its_walls_is_none() {
+fn what_stands_in_a_room_or_before_its_lamp_is_one_and_what_is_under_it_is_none() {
     let room = || {
         let walls = Obj::new().object("walls", "white").room_open_to(Vec3::NEG_Y, Vec3::ZERO, Vec3::ONE);
         walls.object("floor", "glow").level([0.0, 1.0], 0.0, [0.0, 1.0])
     };
     let table = room().object("table", "white").level([0.3, 0.7], 0.4, [0.3, 0.7]);
     let shell = room().object("shell", "white").block(Vec3::splat(-0.2), Vec3::splat(1.2));
+    let cellar = room().object("cellar", "white").block(Vec3::new(0.1, -0.5, 0.1), Vec3::new(0.9, -0.2, 0.9));
     let lamp = room().object("lamp", "lamp").level_down([0.3, 0.7], 1.0, [0.3, 0.7]);
-    for (what, obj, has_occluders) in
-        [("nothing", room(), false), ("a table", table, true), ("a shell", shell, false), ("a lamp", lamp, true)]
-    {
+    for (what, obj, has_occluders) in [
+        ("nothing", room(), false),
+        ("a table", table, true),
+        // The floor shines at its ceiling, which only the room's own ceiling keeps dark.
+        ("a shell", shell, true),
+        ("a cellar", cellar, false),
+        ("a lamp", lamp, true),
+    ] {
         assert_eq!(build_with(obj.open(), 0.25).has_occluders, has_occluders, "{what}");
     }
 }
