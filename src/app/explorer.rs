@@ -258,14 +258,16 @@ impl Explorer {
                 self.pick_photons(photon, self.pane.spot_at(at).filter(|_| photon.is_none()));
             }
             // What rays bring to a point is not kept.
-            ViewGroup::Rays | ViewGroup::Occlusion => {}
+            ViewGroup::Rays | ViewGroup::Occlusion | ViewGroup::Truth => {}
         }
     }
 
     fn unpick(&self) {
         match ViewGroup::of(self.look.view) {
             ViewGroup::Radiosity => self.worker.send(Command::Pick(None)),
-            ViewGroup::PhotonMap | ViewGroup::Rays | ViewGroup::Occlusion => self.pick_photons(None, None),
+            ViewGroup::PhotonMap | ViewGroup::Rays | ViewGroup::Occlusion | ViewGroup::Truth => {
+                self.pick_photons(None, None);
+            }
         }
     }
 

@@ -12,6 +12,7 @@ pub enum ViewGroup {
     PhotonMap,
     Rays,
     Occlusion,
+    Truth,
 }
 
 impl ViewGroup {
@@ -26,9 +27,9 @@ impl ViewGroup {
                 CameraView::RayTraced
                 | CameraView::RadiositySpecular
                 | CameraView::RadiosityDirect
-                | CameraView::FinalGather
-                | CameraView::Reference,
+                | CameraView::FinalGather,
             ) => Self::Rays,
+            View::Camera(CameraView::Reference) => Self::Truth,
             View::OcclusionVertices
             | View::Camera(
                 CameraView::AmbientOcclusion
@@ -54,12 +55,13 @@ impl ViewGroup {
             Self::PhotonMap => View::Photons,
             Self::Rays => View::Camera(CameraView::RayTraced),
             Self::Occlusion => View::Camera(CameraView::AmbientOcclusion),
+            Self::Truth => View::Camera(CameraView::Reference),
         }
     }
 }
 
 impl Choice for ViewGroup {
-    const ALL: &'static [Self] = &[Self::Radiosity, Self::PhotonMap, Self::Rays, Self::Occlusion];
+    const ALL: &'static [Self] = &[Self::Radiosity, Self::PhotonMap, Self::Rays, Self::Occlusion, Self::Truth];
     const KIND: &'static str = "group of views";
 
     fn name(self) -> &'static str {
@@ -68,15 +70,17 @@ impl Choice for ViewGroup {
             Self::PhotonMap => "photon-map",
             Self::Rays => "ray-tracing",
             Self::Occlusion => "occlusion",
+            Self::Truth => "truth",
         }
     }
 
     fn label(self) -> &'static str {
         match self {
             Self::Radiosity => "Radiosity",
-            Self::PhotonMap => "Photons",
-            Self::Rays => "Rays",
+            Self::PhotonMap => "Photon map",
+            Self::Rays => "Tracing",
             Self::Occlusion => "Occlusion",
+            Self::Truth => "Truth",
         }
     }
 
@@ -86,6 +90,7 @@ impl Choice for ViewGroup {
             Self::PhotonMap => "Photons where they landed, and what is read off them",
             Self::Rays => "Pictures from the camera by rays, with mirrors and glass",
             Self::Occlusion => "Even light from everywhere, as far as nothing stands near: a guess at indirect light",
+            Self::Truth => "All light there is, without a bias: what the other methods are held against",
         }
     }
 }

@@ -146,7 +146,7 @@ impl Choice for View {
         match self {
             Self::Patches => "Patches",
             Self::Smooth => "Smooth",
-            Self::Unshot => "Unshot light",
+            Self::Unshot => "Unshot",
             Self::Absorbed => "Absorbed",
             Self::Bounces => "Bounces",
             Self::FormFactors => "Form factors",

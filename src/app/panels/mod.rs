@@ -86,7 +86,7 @@ fn side_panel(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
             match ViewGroup::of(model.look.view) {
                 ViewGroup::Radiosity => patch::show(ui, model, actions),
                 ViewGroup::PhotonMap => picked_photon::show(ui, model, actions),
-                ViewGroup::Rays | ViewGroup::Occlusion => {}
+                ViewGroup::Rays | ViewGroup::Occlusion | ViewGroup::Truth => {}
             }
             if model.look.view.shows_photons() {
                 widgets::section(ui, "Photons on show", |ui| photon_look::show(ui, model, actions));

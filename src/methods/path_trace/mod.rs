@@ -30,7 +30,10 @@ pub struct PathTracer {
     transport: Arc<Transport>,
     /// Which paths count.
     matcher: PathMatcher,
-    effects: Effects,
+    /// Effects whose instances count.
+    counted: Effects,
+    /// Whether light goes from one diffuse surface to another.
+    spreads: bool,
     /// Whether every path counts.
     counts_all: bool,
     /// Whether rays that go on by chance may find emitters. They always see what stands in the way, so that they are of no
@@ -50,24 +53,25 @@ struct Vertex {
 impl PathTracer {
     /// With the effects that `transport` simulates.
     pub fn new(transport: Arc<Transport>, matcher: PathMatcher) -> Self {
-        let effects = transport.effects;
-        Self::with_effects(transport, matcher, effects)
+        Self::without(Effects::default(), transport, matcher)
     }
 
     /// Of all light, but for what comes straight from an emitter to the first diffuse surface.
     pub fn of_indirect_light(transport: Arc<Transport>) -> Self {
-        let effects = transport.effects.but(Effects::of(&[Effect::DirectLight]));
-        Self::with_effects(transport, PathMatcher::default(), effects)
+        Self::without(Effects::of(&[Effect::DirectLight]), transport, PathMatcher::default())
     }
 
-    fn with_effects(transport: Arc<Transport>, matcher: PathMatcher, effects: Effects) -> Self {
-        let apart = Effects::of(&[Effect::DirectLight, Effect::Interreflection, Effect::Caustics]);
+    fn without(left_out: Effects, transport: Arc<Transport>, matcher: PathMatcher) -> Self {
         let needed = needed(&transport.world);
+        // What no surface sends on may still arrive: light that glass gathers on a black wall.
+        let counted = transport.effects.and(Effects::ALL.but(needed)).but(left_out);
+        let apart = Effects::of(&[Effect::DirectLight, Effect::Interreflection, Effect::Caustics]);
         Self {
-            counts_all: matcher.passes_all() && apart.among(needed).but(effects).is_empty(),
-            meets_emitters: effects.contains(Effect::Shadows) || !needed.contains(Effect::Shadows),
+            counts_all: matcher.passes_all() && apart.but(counted).is_empty(),
+            spreads: transport.effects.contains(Effect::Interreflection),
+            meets_emitters: counted.contains(Effect::Shadows),
             matcher,
-            effects,
+            counted,
             transport,
         }
     }
@@ -109,8 +113,7 @@ impl PathTracer {
                 }
                 throughput /= survival;
             }
-            let spreads = self.effects.contains(Effect::Interreflection);
-            cost.spend(if spreads { sample.effect() } else { without_interreflection(sample.effect()) }, 1);
+            cost.spend(if self.spreads { sample.effect() } else { without_interreflection(sample.effect()) }, 1);
             let ray = self.transport.leave(&vertex.surface, sample.direction);
             let Some(surface) = self.transport.meet(&ray) else { break };
             let to_eye = vertex.to_eye.then(sample.scattering);
@@ -139,8 +142,7 @@ impl PathTracer {
             cost.save(effect, 1);
         }
         let mut bsdf = self.transport.bsdf(&surface, -ray.direction, &media);
-        let spreads = self.effects.contains(Effect::Interreflection);
-        if !spreads && to_eye.diffuse_count() > 0 && bsdf.diffuse() != Rgb::ZERO {
+        if !self.spreads && to_eye.diffuse_count() > 0 && bsdf.diffuse() != Rgb::ZERO {
             cost.save(Effect::Interreflection, 1);
             bsdf = bsdf.only(Scattering::Specular);
         }
@@ -182,9 +184,9 @@ impl PathTracer {
     fn is_simulated(&self, to_eye: Path) -> bool {
         match (to_eye.diffuse_count(), to_eye.last()) {
             (0, _) | (_, None) => true,
-            (_, Some(Scattering::Specular)) => self.effects.contains(Effect::Caustics),
-            (1, Some(Scattering::Diffuse)) => self.effects.contains(Effect::DirectLight),
-            (_, Some(Scattering::Diffuse)) => self.effects.contains(Effect::Interreflection),
+            (_, Some(Scattering::Specular)) => self.counted.contains(Effect::Caustics),
+            (1, Some(Scattering::Diffuse)) => self.counted.contains(Effect::DirectLight),
+            (_, Some(Scattering::Diffuse)) => self.counted.contains(Effect::Interreflection),
         }
     }
 }
