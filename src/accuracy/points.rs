@@ -72,3 +72,47 @@ fn triangles(world: &World) -> Vec<Triangle> {
     }
     triangles
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cancel::Cancel;
+    use crate::mesh::MeshSettings;
+    use crate::scene::Scene;
+
+    fn world(name: &str) -> World {
+        let scene = Scene::open(name).expect("a built-in scene");
+        World::build(scene, &MeshSettings::default(), &Cancel::default()).expect("a world")
+    }
+
+    #[test]
+    fn a_wall_gets_points_by_its_area_and_all_are_seen_from_its_lit_side() {
+        let world = world("furnace");
+        let points = spread(&world, 600, 0);
+        assert_eq!(points.len(), 600);
+        for normal in [Vec3A::X, Vec3A::NEG_X, Vec3A::Y, Vec3A::NEG_Y, Vec3A::Z, Vec3A::NEG_Z] {
+            let on_wall: Vec<_> = points.iter().filter(|at| at.normal.dot(normal) > 0.99).collect();
+            // A sixth of the numbers in [0, 1): of a Sobol sequence their count is right to one or two.
+            assert!(on_wall.len().abs_diff(100) <= 2, "{normal}: {}", on_wall.len());
+            let inwards = on_wall.iter().all(|at| (Vec3A::splat(0.5) - at.point).dot(at.normal) > 0.49);
+            assert!(inwards, "{normal}");
+        }
+    }
+
+    #[test]
+    fn none_lies_under_what_stands_on_a_floor() {
+        let world = world("cornell-box");
+        for at in spread(&world, 2_000, 3) {
+            let is_under_the_short_block = at.normal.y > 0.9
+                && at.point.y < 0.01
+                && world
+                    .tracer
+                    .closest(&crate::tracer::Ray {
+                        origin: world.tracer.lift(at.point, at.normal),
+                        direction: at.normal,
+                    })
+                    .is_some_and(|hit| hit.distance < 0.2 && !hit.is_front);
+            assert!(!is_under_the_short_block, "{at:?}");
+        }
+    }
+}

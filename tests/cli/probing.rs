@@ -136,3 +136,43 @@ fn ambient_occlusion_is_of_surfaces_and_takes_no_options_of_light() {
     let message = refusal(&folder, "solve furnace --method ambient-occlusion", 2);
     assert_contains(&message, &["no method is called `ambient-occlusion`", "radiosity, photon-map"]);
 }
+
+/// On surfaces and in the air, with a standard error that means what it says.
+#[test]
+fn the_truth_of_a_furnace_is_known_with_its_error() {
+    let folder = folder();
+    std::fs::write(folder.path().join("points.txt"), FURNACE_POINTS).expect("a file");
+    let probe = "probe furnace --points points.txt --method reference --samples 1024";
+    let text = printed(&folder, probe);
+    assert!(text.starts_with("x,y,z,nx,ny,nz,r,g,b,r_error,g_error,b_error,paths\n"), "{text}");
+    let points = json(&folder, &format!("{probe} --json"));
+    let points = points["points"].as_array().expect("points");
+    assert_eq!((points.len(), keys(&points[0])), (5, vec!["irradiance", "normal", "paths", "point", "standard_error"]));
+    for point in points {
+        let number = |key: &str| point[key][0].as_f64().expect("a number");
+        // 2 W/m², as above. Beyond 5 standard errors once in 40,000.
+        assert!((number("irradiance") - 2.0).abs() < 5.0 * number("standard_error"), "{point}");
+        assert!(number("standard_error") < 0.02 && point["paths"] == 1024, "{point}");
+    }
+    let timed = json(&folder, "probe furnace --points points.txt --method reference --time 0.2 --json");
+    assert!(timed["points"][0]["paths"].as_u64() >= Some(32), "{timed}");
+    assert_contains(&refusal(&folder, "probe furnace --points - --samples 5", 2), &["--samples", "--method radiosity"]);
+    assert_contains(&refusal(&folder, &format!("{probe} --steps 5"), 2), &["--steps", "--method reference"]);
+}
+
+/// The same points whatever the method and the mesh, so that solutions can be held against the truth.
+#[test]
+fn points_are_spread_over_all_that_light_reaches() {
+    let folder = folder();
+    let places = |options: &str| -> Vec<String> {
+        let text = printed(&folder, &format!("probe cornell-box --spread 50 {options}"));
+        text.lines().skip(1).map(|line| line.split(',').take(6).collect::<Vec<_>>().join(",")).collect()
+    };
+    let by_radiosity = places("--steps 1 --element 0.1");
+    assert_eq!(by_radiosity.len(), 50);
+    assert_eq!(by_radiosity, places("--steps 1 --element 0.05"));
+    assert_eq!(by_radiosity, places("--method reference --samples 1"));
+    assert_ne!(by_radiosity, places("--steps 1 --element 0.1 --seed 1"));
+    assert_contains(&refusal(&folder, "probe furnace", 2), &["--points"]);
+    assert_contains(&refusal(&folder, "probe furnace --points - --spread 5", 2), &["--spread"]);
+}

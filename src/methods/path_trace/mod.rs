@@ -7,7 +7,7 @@ pub use sensors::{Sensor, Sensors};
 
 use super::cost::Cost;
 use super::shadows::is_lit;
-use super::transport::{Bsdf, Media, Surface, Transport};
+use super::transport::{Bsdf, Media, Sample, Surface, Transport};
 use crate::effects::{Effect, Effects, needed};
 use crate::math::random::PaddedPoint;
 use crate::math::rgb::Rgb;
@@ -34,6 +34,8 @@ pub struct PathTracer {
     counted: Effects,
     /// Whether light goes from one diffuse surface to another.
     spreads: bool,
+    /// What diffuse rays of surfaces are for, if for anything.
+    purpose: Option<Effect>,
     /// Whether every path counts.
     counts_all: bool,
     /// Whether rays that go on by chance may find emitters. They always see what stands in the way, so that they are of no
@@ -48,6 +50,8 @@ struct Vertex {
     media: Media,
     /// Events before it, from the eye on.
     to_eye: Path,
+    /// What its diffuse rays are for, if for one effect.
+    purpose: Option<Effect>,
 }
 
 impl PathTracer {
@@ -65,10 +69,11 @@ impl PathTracer {
         let needed = needed(&transport.world);
         // What no surface sends on may still arrive: light that glass gathers on a black wall.
         let counted = transport.effects.and(Effects::ALL.but(needed)).but(left_out);
-        let apart = Effects::of(&[Effect::DirectLight, Effect::Interreflection, Effect::Caustics]);
+        let purposes = [Effect::Interreflection, Effect::DirectLight, Effect::Caustics];
         Self {
-            counts_all: matcher.passes_all() && apart.but(counted).is_empty(),
+            counts_all: matcher.passes_all() && Effects::of(&purposes).but(counted).is_empty(),
             spreads: transport.effects.contains(Effect::Interreflection),
+            purpose: purposes.into_iter().find(|&effect| transport.effects.contains(effect)),
             meets_emitters: counted.contains(Effect::Shadows),
             matcher,
             counted,
@@ -94,7 +99,8 @@ impl PathTracer {
         // A white surface sends on all that arrives: B = E, and L = B/π.
         let white = Lobes { diffuse: Rgb::ONE, ..Lobes::default() };
         let bsdf = Bsdf::new(&white, surface, surface.normal, 1.0);
-        PI * self.sent_on(Vertex { surface: *surface, bsdf, media, to_eye: Path::LIGHT }, point, cost)
+        let vertex = Vertex { surface: *surface, bsdf, media, to_eye: Path::LIGHT, purpose: None };
+        PI * self.sent_on(vertex, point, cost)
     }
 
     /// L, W/(m²·sr), that a place sends on of all light that arrives there, by one path.
@@ -113,7 +119,14 @@ impl PathTracer {
                 }
                 throughput /= survival;
             }
-            cost.spend(if self.spreads { sample.effect() } else { without_interreflection(sample.effect()) }, 1);
+            let purpose = match sample.scattering {
+                Scattering::Diffuse => vertex.purpose,
+                Scattering::Specular => Some(sample.effect()),
+            };
+            match purpose {
+                Some(effect) => cost.spend(effect, 1),
+                None => cost.look(),
+            }
             let ray = self.transport.leave(&vertex.surface, sample.direction);
             let Some(surface) = self.transport.meet(&ray) else { break };
             let to_eye = vertex.to_eye.then(sample.scattering);
@@ -121,15 +134,8 @@ impl PathTracer {
                 if sample.crosses { self.transport.media_behind(&vertex.surface, vertex.media) } else { vertex.media };
             let emission = self.transport.emission(&surface);
             if emission != Rgb::ZERO && self.counts(to_eye) {
-                let share = if sample.is_sharp {
-                    1.0
-                } else if self.meets_emitters {
-                    let other = self.transport.emitters().density(emission, &surface, ray.direction);
-                    power_share(sample.density, other)
-                } else {
-                    0.0
-                };
-                sum += throughput * share * emission;
+                let other = self.transport.emitters().density(emission, &surface, ray.direction);
+                sum += throughput * self.share_of_met(&sample, other) * emission;
             }
             vertex = self.vertex(surface, &ray, media, to_eye, cost);
         }
@@ -142,11 +148,26 @@ impl PathTracer {
             cost.save(effect, 1);
         }
         let mut bsdf = self.transport.bsdf(&surface, -ray.direction, &media);
-        if !self.spreads && to_eye.diffuse_count() > 0 && bsdf.diffuse() != Rgb::ZERO {
+        if !self.spreads && bsdf.diffuse() != Rgb::ZERO {
             cost.save(Effect::Interreflection, 1);
-            bsdf = bsdf.only(Scattering::Specular);
+            if to_eye.diffuse_count() > 0 || self.purpose.is_none() {
+                bsdf = bsdf.only(Scattering::Specular);
+            }
         }
-        Vertex { surface, bsdf, media, to_eye }
+        Vertex { surface, bsdf, media, to_eye, purpose: self.purpose }
+    }
+
+    /// The weight of an emitter that a sampled direction met; `other` is the density, 1/sr, with which a point of it would have
+    /// been chosen.
+    fn share_of_met(&self, sample: &Sample, other: f32) -> f32 {
+        if sample.is_sharp {
+            // No ray to an emitter finds this way.
+            1.0
+        } else if self.meets_emitters {
+            power_share(sample.density, other)
+        } else {
+            0.0
+        }
     }
 
     /// L, W/(m²·sr), that a place sends on of the light of a point of an emitter.
@@ -189,11 +210,6 @@ impl PathTracer {
             (_, Some(Scattering::Diffuse)) => self.counted.contains(Effect::Interreflection),
         }
     }
-}
-
-/// Where there is no light between surfaces, a diffuse ray looks for emitters alone.
-fn without_interreflection(effect: Effect) -> Effect {
-    if effect == Effect::Interreflection { Effect::DirectLight } else { effect }
 }
 
 /// The weight of what one of two ways to choose a direction found, by the densities of both (Veach's power heuristic, β = 2).
