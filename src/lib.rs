@@ -2,7 +2,7 @@
 //!
 //! The modules form layers, and a name may be used only from a higher one (`tests/layering.rs` checks it): numbers
 //! ([`math`]), the world ([`scene`], [`mesh`], [`tracer`], [`world`]), what it calls for ([`effects`]), what a method hands
-//! out ([`solution`]), the [`methods`], how far they are from the truth ([`accuracy`]), the [`hard_cases`], the solver
+//! out ([`solution`]), the [`methods`], where they are held against the truth ([`accuracy`]), the [`hard_cases`], the solver
 //! thread ([`worker`]), the picture ([`camera`], [`viewport`]) and the two faces of the program ([`cli`], [`app`]).
 
 pub mod accuracy;

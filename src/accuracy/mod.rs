@@ -1,7 +1,5 @@
-//! How far solutions are from the truth, and what that costs: one measure for all methods.
+//! Where solutions are held against the truth.
 
-mod error;
 mod points;
 
-pub use error::Error;
 pub use points::{ProbePoint, spread};

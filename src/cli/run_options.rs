@@ -75,8 +75,8 @@ pub struct RunOptions {
     #[arg(long, value_name = "N", default_value_t = MeshSettings::default().elements_per_patch_edge,
           value_parser = clap::value_parser!(u32).range(1..=i64::from(MeshSettings::MAX_ELEMENTS_PER_PATCH_EDGE)))]
     patch_edge: u32,
-    /// Rays that carry the emitted flux (form factors by rays) [default: 8000000]; for the views `ray-traced` and
-    /// `final-gather`, shadow rays to the emitters at each place that is seen [default: 4]
+    /// Rays that carry the emitted flux (form factors by rays) [default: 8000000]; for views that find
+    /// direct light by rays, as `ray-traced`, shadow rays to the emitters at each place that is seen [default: 4]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(Settings::MAX_LIGHT_RAYS)))]
     pub light_rays: Option<u32>,
     /// Cells along the edge of a hemicube's top face
@@ -141,12 +141,11 @@ impl RunOptions {
 
     /// Opens the scene and runs radiosity until it should stop.
     pub fn solve(&self) -> Result<Solved, CliError> {
-        self.solve_in(self.open()?)
+        self.solve_in(self.open()?, self.settings())
     }
 
     /// Runs radiosity in the opened scene until it should stop.
-    pub fn solve_in(&self, world: Arc<World>) -> Result<Solved, CliError> {
-        let settings = self.settings();
+    pub fn solve_in(&self, world: Arc<World>, settings: Settings) -> Result<Solved, CliError> {
         let mut run = Run::start(world.clone(), &settings)?;
         let time = self.time().unwrap_or(Duration::MAX);
         let mut steps_left = self.steps.unwrap_or(u64::MAX);

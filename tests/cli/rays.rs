@@ -19,6 +19,8 @@ fn every_view_by_rays_is_written_and_tells_how_it_was_made() {
             vec![("Method", "ray tracing"), ("Light rays", "2"), ("Paths", "L(S*)DE")],
         ),
         ("radiosity-specular", "--steps 10", vec![("Method", "radiosity"), ("Steps", "10")]),
+        ("radiosity-direct", "--steps 10 --light-rays 2", vec![("Method", "radiosity"), ("Light rays", "2")]),
+        ("reference", "--paths LDDE", vec![("Method", "path tracing"), ("Paths", "LDDE")]),
         (
             "photon-irradiance",
             "--photons 20000 --kernel cone",
@@ -211,6 +213,8 @@ fn options_that_a_view_has_no_use_for_are_exit_code_2() {
         ("--view final-gather --light-rays 5000", ["--light-rays", "4096"]),
         ("--view final-gather --gather-rays 0", ["--gather-rays", "from 1 to"]),
         ("--view smooth --light-rays 5", ["--light-rays", "1000"]),
+        ("--view radiosity-direct --light-rays 5000", ["--light-rays", "4096"]),
+        ("--view reference --light-rays 5", ["--light-rays", "`reference`"]),
         ("--view smooth --paths LDE", ["--paths", "`smooth`"]),
         ("--view radiosity-specular --paths LDE", ["--paths", "`radiosity-specular`"]),
         ("--view ray-traced --paths LXE", ["--paths", "`X`"]),

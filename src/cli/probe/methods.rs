@@ -28,7 +28,7 @@ const PATHS: u32 = 4096;
 
 /// On a surface the solution is read off; in the air it is gathered from all patches, as a light meter would.
 pub fn by_radiosity(options: &Options, world: Arc<World>, sensors: &[Sensor]) -> Result<Vec<Measured>, CliError> {
-    let solved = options.run.solve_in(world)?;
+    let solved = options.run.solve_in(world, options.run.settings())?;
     let probe = SurfaceProbe::new(&solved.world, &solved.solution);
     let measure = |&(point, normal): &Sensor| {
         let on_surface = probe.irradiance(point.into(), normal.into());

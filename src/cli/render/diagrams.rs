@@ -43,7 +43,7 @@ impl Options {
     pub(super) fn solve(&self) -> Result<(Solved, Light), CliError> {
         let world = self.run.open()?;
         let picked = self.picked(&world)?;
-        let solved = self.run.solve_in(world)?;
+        let solved = self.run.solve_in(world, self.settings())?;
         let light = Light { picked, ..Light::from(solved.solution.clone()) };
         Ok((solved, light))
     }

@@ -26,8 +26,8 @@ pub struct Options {
     #[arg(short, long, value_name = "FILE", value_parser = values::picture_path)]
     output: PathBuf,
     /// What to show: patches, smooth, unshot, absorbed, bounces or form-factors of radiosity; photons or kd-tree;
-    /// photon-irradiance, photon-radiance, caustics, ray-traced, radiosity-specular or final-gather by rays from the
-    /// camera; ambient-occlusion, diffuse or diffuse-ao with even light from everywhere, ambient-occlusion-vertices on the
+    /// photon-irradiance, photon-radiance, caustics, ray-traced, radiosity-specular, radiosity-direct or final-gather by rays from the
+    /// camera, reference by path tracing; ambient-occlusion, diffuse or diffuse-ao with even light from everywhere, ambient-occlusion-vertices on the
     /// mesh, ao-minus-indirect against the true light between surfaces; the diagrams matrix or item-buffer
     #[arg(long, default_value = View::default().name(), value_parser = Subject::parse)]
     view: Subject,
@@ -96,9 +96,10 @@ const SAMPLES: u32 = 16;
 impl Options {
     fn settings(&self) -> Settings {
         let settings = self.run.settings();
-        // Those of radiosity are as many as its own options say; what a camera takes is another number.
-        let light_rays = if self.view.is_radiosity() { settings.light_rays } else { Settings::default().light_rays };
-        let own = self.run.light_rays.filter(|_| self.view.samples_emitters());
+        // Radiosity's own, or those of the view: one option, but two numbers.
+        let is_of_view = self.view.samples_emitters();
+        let light_rays = if is_of_view { Settings::default().light_rays } else { settings.light_rays };
+        let own = self.run.light_rays.filter(|_| is_of_view);
         let image = self.image.settings(own);
         let occlusion = self.occlusion.settings(OcclusionSettings::default().rays);
         Settings { light_rays, photons: self.photons.settings(), image, occlusion, ..settings }

@@ -119,7 +119,7 @@ impl Options {
         let view = self.view;
         let unused = |option: &str| Some(format!("{option} is not for the view `{}`", view.name()));
         if view.is_radiosity() {
-            if let Some(objection) = self.run.objection_by_radiosity() {
+            if let Some(objection) = self.run.objection_by_radiosity().filter(|_| !view.samples_emitters()) {
                 return Some(objection);
             }
         } else if let Some(option) = self.run.stop_of_radiosity() {
@@ -137,7 +137,7 @@ impl Options {
         if self.image.paths.is_some() && !view.has_paths() {
             return unused("--paths");
         }
-        if let Some(rays) = self.run.light_rays.filter(|_| !view.is_radiosity()) {
+        if let Some(rays) = self.run.light_rays.filter(|_| !view.is_radiosity() || view.samples_emitters()) {
             if !view.samples_emitters() {
                 return unused("--light-rays");
             }

@@ -93,7 +93,7 @@ impl Options {
     fn draw_by_rays(&self, gpu: &Gpu, view: CameraView) -> Result<Drawn, CliError> {
         let settings = self.settings();
         let world = self.run.open()?;
-        let solved = view.needs_radiosity().then(|| self.run.solve_in(world.clone())).transpose()?;
+        let solved = view.needs_radiosity().then(|| self.run.solve_in(world.clone(), settings)).transpose()?;
         let solution = solved.as_ref().map(|solved| Arc::new(solved.solution.clone()));
         let mut tracing = Tracing::new(world, settings, self.run.time().filter(|_| solved.is_none()));
         let shot = CameraShot { view, camera: self.camera.camera(&tracing.world), size: self.camera.size };

@@ -54,6 +54,6 @@ impl Look for ContrastLook {
     }
 
     fn transport(&self) -> &Transport {
-        self.tracer.transport()
+        &self.tracer.transport
     }
 }

@@ -43,25 +43,21 @@ pub struct RadiosityLight {
     transport: Arc<Transport>,
     /// E, W/m².
     vertex_irradiance: Vec<Rgb>,
-    /// Where light straight from emitters is not read off: shadow rays to find it with.
+    /// Rays to find light with that comes straight from emitters; `None` where that is read off, too.
     light_rays: Option<u32>,
 }
 
 impl RadiosityLight {
-    pub fn new(transport: Arc<Transport>, solution: &Solution) -> Self {
+    /// With `light_rays`, only light between surfaces is read off, which is smooth; shadows keep their edges by so many rays
+    /// to the emitters (Chen, Rushmeier, Miller, Turner 1991).
+    pub fn new(transport: Arc<Transport>, solution: &Solution, light_rays: Option<u32>) -> Self {
+        let light = &solution.light;
+        let parts = light.irradiance.iter().zip(&light.direct);
+        let read_off =
+            parts.map(|(all, direct)| if light_rays.is_some() { (*all - *direct).max(Rgb::ZERO) } else { *all });
         let mut vertex_irradiance = Vec::new();
-        transport.world.mesh.smooth(&solution.light.irradiance, &mut vertex_irradiance);
-        Self { transport, vertex_irradiance, light_rays: None }
-    }
-
-    /// Only the light between surfaces, which is smooth, is read off; shadows keep their edges by rays to the emitters
-    /// (Chen, Rushmeier, Miller, Turner 1991).
-    pub fn with_direct_rays(transport: Arc<Transport>, solution: &Solution, light_rays: u32) -> Self {
-        let parts = solution.light.irradiance.iter().zip(&solution.light.direct);
-        let indirect: Vec<Rgb> = parts.map(|(all, direct)| (*all - *direct).max(Rgb::ZERO)).collect();
-        let mut vertex_irradiance = Vec::new();
-        transport.world.mesh.smooth(&indirect, &mut vertex_irradiance);
-        Self { transport, vertex_irradiance, light_rays: Some(light_rays) }
+        transport.world.mesh.smooth(&read_off.collect::<Vec<_>>(), &mut vertex_irradiance);
+        Self { transport, vertex_irradiance, light_rays }
     }
 }
 

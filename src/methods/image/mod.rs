@@ -47,10 +47,9 @@ impl Sources {
             CameraView::RayTraced => {
                 Box::new(DirectLight { transport, rays: settings.light_rays, matcher: settings.filter.matcher() })
             }
-            CameraView::RadiositySpecular => Box::new(RadiosityLight::new(transport, self.radiosity.as_ref()?)),
+            CameraView::RadiositySpecular => Box::new(RadiosityLight::new(transport, self.radiosity.as_ref()?, None)),
             CameraView::RadiosityDirect => {
-                let solution = self.radiosity.as_ref()?;
-                Box::new(RadiosityLight::with_direct_rays(transport, solution, settings.light_rays))
+                Box::new(RadiosityLight::new(transport, self.radiosity.as_ref()?, Some(settings.light_rays)))
             }
             CameraView::PhotonIrradiance => Box::new(self.photon_light(Shown::Irradiance, false, settings)?),
             CameraView::PhotonRadiance => Box::new(self.photon_light(Shown::Radiance, false, settings)?),

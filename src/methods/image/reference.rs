@@ -12,6 +12,6 @@ impl Look for PathTracer {
     }
 
     fn transport(&self) -> &Transport {
-        self.transport()
+        &self.transport
     }
 }

@@ -22,12 +22,10 @@ use std::sync::Arc;
 const ROULETTE: u64 = 4;
 /// Nothing goes on for certain then, so that all ends.
 const MOST_SURVIVAL: f32 = 0.95;
-/// A path takes four numbers for its rays to emitters, and four for the way on, at each event; the first set is its beginner's.
-const SETS_OF_EVENT: u64 = 2;
 
 /// Finds the light that arrives along rays, or at points.
 pub struct PathTracer {
-    transport: Arc<Transport>,
+    pub transport: Arc<Transport>,
     /// Which paths count.
     matcher: PathMatcher,
     /// Effects whose instances count.
@@ -81,10 +79,6 @@ impl PathTracer {
         }
     }
 
-    pub fn transport(&self) -> &Transport {
-        &self.transport
-    }
-
     /// L, W/(m²·sr), that arrives along a ray which starts in this glass; `None` where it meets no surface.
     pub fn radiance(&self, ray: &Ray, media: Media, point: &PaddedPoint, cost: &mut Cost) -> Option<Rgb> {
         cost.look();
@@ -107,9 +101,9 @@ impl PathTracer {
     fn sent_on(&self, mut vertex: Vertex, point: &PaddedPoint, cost: &mut Cost) -> Rgb {
         let (mut sum, mut throughput) = (Rgb::ZERO, Rgb::ONE);
         for event in 0.. {
-            let set = 1 + SETS_OF_EVENT * event;
-            sum += throughput * self.straight_from_emitters(&vertex, throughput, point.four(set), cost);
-            let [choice, u, v, survives] = point.four(set + 1);
+            // Of each event, one set of numbers is for the ray to an emitter, and the next for the way on.
+            sum += throughput * self.straight_from_emitters(&vertex, throughput, point.four(2 * event), cost);
+            let [choice, u, v, survives] = point.four(2 * event + 1);
             let Some(sample) = vertex.bsdf.sample_at(throughput, choice, Vec2::new(u, v)) else { break };
             throughput *= sample.weight * sample.narrowing;
             if event >= ROULETTE {

@@ -34,7 +34,7 @@ impl Sensor {
     }
 }
 
-/// A light meter that is part of no polygon.
+/// A light meter: there is no polygon of this index, nor a material, and none is asked for where irradiance is found.
 fn in_the_air(point: Vec3A, normal: Vec3A) -> Surface {
     Surface { polygon: u32::MAX, is_front: true, distance: 0.0, point, facing: normal, normal, material: u32::MAX }
 }

@@ -180,13 +180,11 @@ impl Bsdf {
 
     /// The densities, 1/sr, with which [`Bsdf::sample`] chooses a direction by way of the diffuse lobe and of the glossy one.
     pub fn densities(&self, direction: Vec3A, light: Rgb) -> [f32; 2] {
-        let share = |lobe| (light * self.share(lobe)).max_element();
-        let all: f32 = LOBES.iter().map(|&lobe| share(lobe)).sum();
-        if all <= 0.0 {
-            return [0.0; 2];
-        }
-        let density = |lobe| if share(lobe) > 0.0 { share(lobe) / all * self.density(lobe, direction) } else { 0.0 };
-        [density(Lobe::Diffuse), density(Lobe::Glossy)]
+        let all = self.weight_of_all(light);
+        [Lobe::Diffuse, Lobe::Glossy].map(|lobe| {
+            let weight = self.weight(lobe, light);
+            if weight > 0.0 { weight / all * self.density(lobe, direction) } else { 0.0 }
+        })
     }
 
     /// A direction in which light goes on, by random numbers: see [`Bsdf::sample_at`].
@@ -198,31 +196,39 @@ impl Bsdf {
     /// `light`, the light that is to be scattered, per channel; `None` where no lobe does anything, or where the direction
     /// leads into the surface.
     pub fn sample_at(&self, light: Rgb, choice: f32, at: Vec2) -> Option<Sample> {
-        let share = |lobe| (light * self.share(lobe)).max_element();
-        let all: f32 = LOBES.iter().map(|&lobe| share(lobe)).sum();
+        let all = self.weight_of_all(light);
         let mut choice = choice * all;
         let mut chosen = None;
         for lobe in LOBES {
-            let share = share(lobe);
-            if share > 0.0 {
-                chosen = Some((lobe, share));
-                if choice < share {
+            let weight = self.weight(lobe, light);
+            if weight > 0.0 {
+                chosen = Some((lobe, weight));
+                if choice < weight {
                     break;
                 }
-                choice -= share;
+                choice -= weight;
             }
         }
-        let (lobe, share) = chosen?;
+        let (lobe, weight) = chosen?;
         let (direction, factor) = self.direction(lobe, at)?;
         Some(Sample {
             direction,
-            weight: self.share(lobe) * (factor * all / share),
+            weight: self.share(lobe) * (factor * all / weight),
             narrowing: if lobe == Lobe::Refracted { 1.0 / (self.index * self.index) } else { 1.0 },
             scattering: if lobe == Lobe::Diffuse { Scattering::Diffuse } else { Scattering::Specular },
             crosses: matches!(lobe, Lobe::Refracted | Lobe::Straight),
-            density: share / all * self.density(lobe, direction),
+            density: weight / all * self.density(lobe, direction),
             is_sharp: !matches!(lobe, Lobe::Diffuse | Lobe::Glossy),
         })
+    }
+
+    /// How likely a lobe is chosen for this light, over [`Bsdf::weight_of_all`].
+    fn weight(&self, lobe: Lobe, light: Rgb) -> f32 {
+        (light * self.share(lobe)).max_element()
+    }
+
+    fn weight_of_all(&self, light: Rgb) -> f32 {
+        LOBES.iter().map(|&lobe| self.weight(lobe, light)).sum()
     }
 
     /// The density of a lobe's directions, 1/sr: 0 where they have none.
