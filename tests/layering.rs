@@ -44,7 +44,7 @@ const CRATES: &[(&str, &[&str])] = &[
     ("rayon", &["mesh", "tracer", "world", "methods", "accuracy", "worker"]),
     ("thread_priority", &["worker"]),
     ("sysinfo", &["worker"]),
-    ("kiddo", &["methods"]),
+    ("dirs", &["accuracy"]),
     ("regex", &["solution"]),
     // The picture.
     ("wgpu", &["viewport", "app"]),

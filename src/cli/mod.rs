@@ -7,6 +7,7 @@ mod facts;
 mod form_factor;
 mod image_options;
 mod inspect;
+mod judge;
 mod occlusion_options;
 mod photon_options;
 pub mod picture;

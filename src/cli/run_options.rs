@@ -139,11 +139,6 @@ impl RunOptions {
         self.scene.open(self.patch_edge)
     }
 
-    /// Opens the scene and runs radiosity until it should stop.
-    pub fn solve(&self) -> Result<Solved, CliError> {
-        self.solve_in(self.open()?, self.settings())
-    }
-
     /// Runs radiosity in the opened scene until it should stop.
     pub fn solve_in(&self, world: Arc<World>, settings: Settings) -> Result<Solved, CliError> {
         let mut run = Run::start(world.clone(), &settings)?;

@@ -1,5 +1,6 @@
 //! `lightwell solve`: where the light went.
 
+use super::judge::Judge;
 use super::photon_options::{LightMethod, PhotonOptions};
 use super::run_options::{RunOptions, Solved};
 use super::tracing::{Tracing, photon_report};
@@ -22,6 +23,10 @@ pub struct Options {
     method: LightMethod,
     #[command(flatten)]
     photons: PhotonOptions,
+    /// Measure how far the light is off at points spread over all surfaces, against a path-traced reference that is kept
+    /// for the next time
+    #[arg(long)]
+    accuracy: bool,
     /// Print one JSON object and nothing else
     #[arg(long)]
     json: bool,
@@ -29,18 +34,29 @@ pub struct Options {
 
 pub fn run(options: &Options) -> Result<(), CliError> {
     check_method(options.method, &options.run, &options.photons);
-    let (report, text) = match options.method {
+    let world = options.run.open()?;
+    let mut judge = options.accuracy.then(|| Judge::new(world.clone()));
+    let (mut report, mut text, found) = match options.method {
         LightMethod::Radiosity => {
-            let solved = options.run.solve()?;
-            (report(&solved), text(&solved))
+            let solved = options.run.solve_in(world, options.run.settings())?;
+            let found = judge.as_ref().map(|judge| judge.found_by_radiosity(&solved));
+            (report(&solved), text(&solved), found)
         }
         LightMethod::PhotonMap => {
             let settings = Settings { photons: options.photons.settings(), ..options.run.settings() };
-            let mut tracing = Tracing::new(options.run.open()?, settings, options.run.time());
-            let photons = tracing.trace(|_| ())?;
-            (photon_report(&tracing.world, &settings, &photons), photon_text(&tracing.world, &photons))
+            let mut tracing = Tracing::new(world, settings, options.run.time());
+            let (photons, found) = match &judge {
+                Some(judge) => judge.found_by_photons(&mut tracing).map(|(photons, found)| (photons, Some(found)))?,
+                None => (tracing.trace(|_| ())?, None),
+            };
+            (photon_report(&tracing.world, &settings, &photons), photon_text(&tracing.world, &photons), found)
         }
     };
+    if let (Some(judge), Some(found)) = (&mut judge, &found) {
+        let verdict = judge.verdict(found);
+        report["accuracy"] = verdict.json();
+        text += &verdict.text();
+    }
     let mut out = std::io::stdout().lock();
     if options.json {
         writeln!(out, "{report}")?;

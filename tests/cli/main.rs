@@ -1,5 +1,6 @@
 //! The program as it is called from a shell.
 
+mod accuracy;
 mod checking;
 mod form_factors;
 mod inspecting;
@@ -25,6 +26,8 @@ fn program(folder: &TempDir, arguments: &str) -> Command {
     command.current_dir(folder).args(arguments.split_whitespace()).stdin(Stdio::null());
     // Without this some graphics drivers complain on standard error.
     command.env("XDG_RUNTIME_DIR", folder.path());
+    // Nothing is known from before.
+    command.env("XDG_CACHE_HOME", folder.path());
     command
 }
 

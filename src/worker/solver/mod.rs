@@ -1,6 +1,7 @@
 //! The loop of the solver thread: what is done next, and what is told of it.
 
 mod easel;
+mod judging;
 mod lights;
 mod picks;
 mod pictures;
@@ -8,6 +9,7 @@ mod scenes;
 
 use super::going::Going;
 use super::history::History;
+use super::judge::Judge;
 use super::mailbox::{Mail, Mailbox};
 use super::run::{OcclusionRun, PhotonRun, Run};
 use super::workshop::Workshop;
@@ -38,6 +40,7 @@ pub struct Solver<W: Workshop> {
     occlusion: Light<OcclusionRun>,
     easel: Easel<W::Image>,
     history: History,
+    judge: Judge,
     /// A patch to be looked from when there is no command to serve.
     wish: Option<u32>,
     /// Where the estimate from photons is looked into.
@@ -81,6 +84,7 @@ impl<R> Default for Light<R> {
 enum Part {
     Light(LightKind),
     Picture,
+    Truth,
 }
 
 /// What there is to do without a command.
@@ -88,6 +92,10 @@ enum Task {
     LookFrom(u32),
     Light(LightKind),
     Picture,
+    /// Says how far off a light is.
+    Measure(LightKind),
+    /// Makes the truth better known, which lights are held against.
+    Refine,
 }
 
 impl<W: Workshop> Solver<W> {
@@ -104,6 +112,7 @@ impl<W: Workshop> Solver<W> {
             occlusion: Light::default(),
             easel: Easel::default(),
             history: History::default(),
+            judge: Judge::default(),
             wish: None,
             spot: None,
             lead: 0.0,
@@ -146,12 +155,20 @@ impl<W: Workshop> Solver<W> {
         }
     }
 
-    /// What is on show comes first: its picture and its light by turns, the first coarse picture before its light. Then the
-    /// lights go on that are not on show.
+    /// What a person waits for comes first, and measuring when nothing else is to be done, or on account.
     fn next_task(&mut self) -> Option<Task> {
         if let Some(patch) = self.wish {
             return Some(Task::LookFrom(patch));
         }
+        let task = self.next_of_light();
+        let is_urgent = self.picture_to_do().is_some_and(|picture| picture.is_urgent);
+        let judging = if is_urgent { None } else { self.judging_to_do(task.is_some()) };
+        judging.or(task)
+    }
+
+    /// What is on show comes first: its picture and its light by turns, the first coarse picture before its light. Then the
+    /// lights go on that are not on show.
+    fn next_of_light(&mut self) -> Option<Task> {
         let light = self.subject().light().filter(|&kind| self.going(kind).is_running());
         let picture = self.picture_to_do();
         if picture.is_none() || light.is_none() {
@@ -169,6 +186,8 @@ impl<W: Workshop> Solver<W> {
         let start = Instant::now();
         let sign = match task {
             Task::LookFrom(patch) => return self.look_from(patch),
+            Task::Measure(kind) => return self.on_account(|solver| solver.measure(kind)),
+            Task::Refine => return self.on_account(Self::refine),
             Task::Light(kind) => {
                 self.step(kind);
                 1.0
@@ -178,7 +197,9 @@ impl<W: Workshop> Solver<W> {
                 -1.0
             }
         };
-        self.lead += sign * start.elapsed().as_secs_f64();
+        let seconds = start.elapsed().as_secs_f64();
+        self.judge.earn(seconds);
+        self.lead += sign * seconds;
     }
 
     fn subject(&self) -> Subject {
@@ -234,6 +255,10 @@ impl<W: Workshop> Solver<W> {
                 self.occlusion.run = None;
                 self.occlusion.going = Going::Crashed;
                 "ambient occlusion"
+            }
+            Part::Truth => {
+                self.judge.has_crashed = true;
+                "measuring of errors"
             }
             Part::Picture => {
                 self.easel.clear();
