@@ -112,6 +112,24 @@ impl Cache {
         (checksum == checksum_of(paths, &numbers)).then_some((paths, sums))
     }
 
+    /// What is known of runs on a scene, as text; `None` where nothing is kept.
+    pub fn load_runs(&self, key: &Key) -> Option<String> {
+        fs::read_to_string(self.path_of_runs(key)).ok()
+    }
+
+    /// Keeps what is known of runs on a scene.
+    ///
+    /// # Errors
+    /// If the folder or the file cannot be written.
+    pub fn store_runs(&self, key: &Key, text: &str) -> Result<(), CacheError> {
+        let path = self.path_of_runs(key);
+        write_whole(&self.folder, &path, text.as_bytes()).map_err(|source| CacheError { path, source })
+    }
+
+    fn path_of_runs(&self, key: &Key) -> PathBuf {
+        self.folder.join(format!("runs-{:016x}-{:016x}.json", key.scene, key.points))
+    }
+
     /// Whoever reads at the same time finds the old file or the new one, never a part.
     ///
     /// # Errors

@@ -7,7 +7,7 @@ mod front;
 mod points;
 mod reference;
 
-pub use cache::{Cache, CacheError};
+pub use cache::{Cache, CacheError, Key};
 pub use error::Error;
 pub use found::{Found, by_photons, by_radiosity};
 pub use front::{Offer, front, slope};

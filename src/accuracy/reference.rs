@@ -62,6 +62,11 @@ impl Reference {
         cache.store(&self.key, paths, sums)
     }
 
+    /// Of the scene and its points, for what else is kept of it.
+    pub fn key(&self) -> &Key {
+        &self.key
+    }
+
     /// Whether it is about a world like this one, whatever its mesh.
     pub fn is_about(&self, world: &World) -> bool {
         self.key.is_of(&world.scene)

@@ -1,6 +1,7 @@
 //! The program as it is called from a shell.
 
 mod accuracy;
+mod budget;
 mod checking;
 mod form_factors;
 mod inspecting;
@@ -10,6 +11,7 @@ mod rays;
 mod refusing;
 mod rendering;
 mod solving;
+mod studying;
 
 use serde_json::Value;
 use std::path::Path;
