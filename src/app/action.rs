@@ -2,7 +2,9 @@
 
 use super::chart::Chart;
 use super::model::{Dialog, Look, LowerPanel, PictureRequest, Theme};
+use super::wish::Wish;
 use crate::methods::Settings;
+use crate::study::Question;
 use crate::worker::Command;
 use egui::Vec2;
 use std::path::PathBuf;
@@ -45,6 +47,11 @@ pub enum Action {
     /// Opens a panel below the viewport, or closes the one that is open.
     ShowLowerPanel(Option<LowerPanel>),
     SetChart(Chart),
+    /// Says what is wanted of light.
+    SetWish(Wish),
+    /// Looks for settings in the background.
+    Inquire(Question),
+    StopInquiry,
     /// Runs all hard cases in the background.
     RunChecks,
     /// Opens the hard case of this name as a scene.

@@ -2,8 +2,8 @@
 
 use super::format;
 use crate::choice::Choice;
-use crate::methods::{FormFactorMethod, Settings, Solver};
-use crate::worker::{Curve, CurvePoint};
+use crate::methods::{FormFactorMethod, PhotonSettings, Settings, Solver};
+use crate::worker::{Curve, CurvePoint, LightKind, Track};
 use std::sync::Arc;
 
 /// What is drawn over what.
@@ -122,23 +122,45 @@ impl Choice for Rest {
 
 /// For each run its solver, and of its other settings those in which the runs differ.
 pub fn descriptions(curves: &[Arc<Curve>]) -> Vec<String> {
-    let facts: Vec<_> = curves.iter().map(|curve| facts(&curve.settings)).collect();
+    told_apart(&curves.iter().map(|curve| facts_of_radiosity(&curve.settings)).collect::<Vec<_>>())
+}
+
+/// The same of runs of which some are radiosity and others photons: each kind by itself.
+pub fn descriptions_of_tracks(tracks: &[Arc<Track>]) -> Vec<String> {
+    let mut descriptions = vec![String::new(); tracks.len()];
+    for kind in [LightKind::Radiosity, LightKind::Photons] {
+        let of_kind: Vec<usize> = (0..tracks.len()).filter(|&index| tracks[index].kind == kind).collect();
+        let facts = |&index: &usize| match kind {
+            LightKind::Photons => facts_of_photons(&tracks[index].settings),
+            LightKind::Radiosity | LightKind::Occlusion => facts_of_radiosity(&tracks[index].settings),
+        };
+        let told = told_apart(&of_kind.iter().map(facts).collect::<Vec<_>>());
+        for (index, description) in of_kind.into_iter().zip(told) {
+            descriptions[index] = description;
+        }
+    }
+    descriptions
+}
+
+/// The first fact of each, and those in which they differ.
+fn told_apart(facts: &[Vec<Option<String>>]) -> Vec<String> {
     let differs = |kind: usize| facts.iter().any(|other| other[kind] != facts[0][kind]);
-    let describe = |facts: &[Option<String>; 8]| {
+    let describe = |facts: &Vec<Option<String>>| {
         let told = facts.iter().enumerate().filter(|(kind, _)| *kind == 0 || differs(*kind));
         told.filter_map(|(_, fact)| fact.as_deref()).collect::<Vec<_>>().join(", ")
     };
     facts.iter().map(describe).collect()
 }
 
-/// Everything that can make one run differ from another on one scene, the solver first; `None` where it plays no part.
-fn facts(settings: &Settings) -> [Option<String>; 8] {
+/// Everything that can make one run of radiosity differ from another on one scene, the solver first; `None` where it plays no
+/// part.
+fn facts_of_radiosity(settings: &Settings) -> Vec<Option<String>> {
     let Settings { mesh, solver, form_factor, overshoot, shadow_rays, light_rays, hemicube_resolution, seed, .. } =
         *settings;
     let uses_shadow_rays = form_factor != FormFactorMethod::Rays;
     let solver_name = solver.label().to_owned();
     let is_ahead = overshoot && solver == Solver::Progressive;
-    [
+    vec![
         Some(if is_ahead { format!("{solver_name} with overshoot") } else { solver_name }),
         Some(form_factor.label().to_lowercase()),
         Some(mesh.element_size.map_or("automatic mesh".to_owned(), |size| format::si(f64::from(size), "m"))),
@@ -147,6 +169,20 @@ fn facts(settings: &Settings) -> [Option<String>; 8] {
         (form_factor == FormFactorMethod::Rays).then(|| format::short(f64::from(light_rays), "rays")),
         (form_factor == FormFactorMethod::Hemicube).then(|| format!("{hemicube_resolution} cells")),
         Some(format!("seed {seed}")),
+    ]
+}
+
+/// The same of photons, their number first.
+fn facts_of_photons(settings: &Settings) -> Vec<Option<String>> {
+    let PhotonSettings { count, caustic_count, nearest, max_radius, kernel, is_progressive, .. } = settings.photons;
+    vec![
+        Some(format!("{} photons", format::short(f64::from(count), ""))),
+        Some(if is_progressive { "progressive".to_owned() } else { "one pass".to_owned() }),
+        Some(format!("{nearest} nearest")),
+        Some(max_radius.map_or("automatic radius".to_owned(), |radius| format::si(f64::from(radius), "m"))),
+        Some(kernel.label().to_lowercase()),
+        Some(format!("{} for caustics", format::short(f64::from(caustic_count), ""))),
+        Some(format!("seed {}", settings.seed)),
     ]
 }
 

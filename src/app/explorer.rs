@@ -19,7 +19,9 @@ use crate::cli::picture::{self, Format};
 use crate::hard_cases::cases;
 use crate::methods::Settings;
 use crate::scene::Source;
-use crate::viewport::Legend;
+use crate::solution::CameraView;
+use crate::study::{Inquiry, Question, Way};
+use crate::viewport::{Legend, View};
 use crate::worker::{Checks, Command, Place, Shown, Sight, Snapshot, Spot, Worker};
 use egui::{Ui, Vec2, ViewportCommand};
 use std::path::PathBuf;
@@ -38,6 +40,11 @@ pub struct Explorer {
     pictures: Pictures,
     diagrams: Diagrams,
     checks: Option<Checks>,
+    /// Which settings suit a wish, or a study, in the making or done.
+    inquiry: Option<Inquiry>,
+    cache: Option<Cache>,
+    /// Whether the answer is still to be taken over.
+    is_answer_awaited: bool,
     file_dialogs: FileDialogs,
     look: Look,
     /// What the solver thread was told last of what is on show.
@@ -71,7 +78,7 @@ impl Explorer {
         let pane = ViewportPane::new(render_state);
         let waker = ctx.clone();
         let pace = if pane.gpu().is_software() { SOFTWARE_PACE } else { Duration::ZERO };
-        let worker = Worker::spawn(cache, move || waker.request_repaint_after(pace));
+        let worker = Worker::spawn(cache.clone(), move || waker.request_repaint_after(pace));
         worker.send(Command::Load(scene));
         Ok(Self {
             snapshot: worker.latest(),
@@ -79,6 +86,9 @@ impl Explorer {
             pictures: Pictures::spawn(pane.gpu().clone(), ctx.clone()),
             diagrams: Diagrams::default(),
             checks: None,
+            inquiry: None,
+            cache,
+            is_answer_awaited: false,
             file_dialogs: FileDialogs::new(ctx),
             look: Look::default(),
             told: None,
@@ -114,6 +124,7 @@ impl Explorer {
         if self.pane.fly() {
             ctx.request_repaint();
         }
+        self.take_answer();
         self.take_outcomes(ctx.input(|input| input.time));
         if let Some(seconds) = self.notices.expire(ctx.input(|input| input.time)) {
             ctx.request_repaint_after(Duration::from_secs_f64(seconds));
@@ -147,6 +158,7 @@ impl Explorer {
         let mut actions = Vec::new();
         let error = self.snapshot.error.as_deref().filter(|_| !self.is_error_dismissed);
         let report = self.checks.as_ref().map(Checks::latest);
+        let answer = self.inquiry.as_ref().map(Inquiry::latest);
         let settings = self.edited.unwrap_or(self.snapshot.settings);
         let model = Model {
             phase: &self.snapshot.phase,
@@ -174,6 +186,10 @@ impl Explorer {
             item_buffer: self.diagrams.item_buffer(),
             patch: PatchFacts::of(&self.snapshot),
             curves: &self.snapshot.curves,
+            tracks: &self.snapshot.tracks,
+            truth: self.snapshot.truth.as_deref(),
+            wish: self.preferences.wish,
+            inquiry: answer.as_deref(),
             recent: &self.preferences.recent,
             notices: self.notices.shown(),
             dialog: self.dialog.as_ref(),
@@ -215,6 +231,12 @@ impl Explorer {
             }
             Action::ShowLowerPanel(panel) => self.preferences.lower = panel,
             Action::SetChart(chart) => self.preferences.chart = chart,
+            Action::SetWish(wish) => self.preferences.wish = wish,
+            Action::Inquire(question) => self.inquire(ctx, question),
+            Action::StopInquiry => {
+                self.inquiry = None;
+                self.worker.send(Command::Hush(false));
+            }
             Action::RunChecks => {
                 let ctx = ctx.clone();
                 self.checks = Some(Checks::spawn(move || ctx.request_repaint()));
@@ -243,6 +265,36 @@ impl Explorer {
                 let now = ctx.input(|input| input.time);
                 self.notices.tell(now, format!("{name} is about numbers alone: there is no scene to open"));
             }
+        }
+    }
+
+    /// Begins to look for settings that suit a wish; measuring of what is on show waits for it.
+    fn inquire(&mut self, ctx: &egui::Context, question: Question) {
+        let Some(world) = self.snapshot.world.clone() else { return };
+        let ctx = ctx.clone();
+        let (settings, cache) = (self.snapshot.settings, self.cache.clone());
+        self.worker.send(Command::Hush(true));
+        self.inquiry = Some(Inquiry::spawn(question, world, settings, cache, move || ctx.request_repaint()));
+        self.is_answer_awaited = true;
+    }
+
+    /// Takes over what was looked for and found, and lets it run.
+    fn take_answer(&mut self) {
+        let Some(answer) = self.inquiry.as_ref().map(Inquiry::latest) else { return };
+        if answer.doing.is_some() || !std::mem::take(&mut self.is_answer_awaited) {
+            return;
+        }
+        self.worker.send(Command::Hush(false));
+        if let Some(choice) = answer.found {
+            let view = if choice.recipe.way == Way::PhotonMap {
+                View::Camera(CameraView::PhotonRadiance)
+            } else {
+                View::Smooth
+            };
+            self.look = Look { view, ..self.look };
+            self.tell_sight();
+            self.configure(choice.recipe.settings);
+            self.worker.send(Command::Run);
         }
     }
 

@@ -62,6 +62,7 @@ pub const SHOOTER: KeyboardShortcut = key(Key::O);
 pub const TICKS: KeyboardShortcut = key(Key::T);
 pub const UNPICK: KeyboardShortcut = key(Key::Escape);
 pub const CONVERGENCE: KeyboardShortcut = key(Key::C);
+pub const ACCURACY: KeyboardShortcut = key(Key::E);
 pub const HARD_CASES: KeyboardShortcut = key(Key::K);
 pub const MATRIX: KeyboardShortcut = key(Key::M);
 pub const AMBIENT: KeyboardShortcut = key(Key::A);
@@ -139,6 +140,7 @@ pub const BINDINGS: &[Binding] = &[
     Binding::new(MORE_BOUNCES, "View of bounces: one more", |model| bounce(model, 1)).repeating(),
     Binding::new(UNPICK, "Forget what is picked", |model| model.has_pick().then_some(Action::Unpick)),
     Binding::new(CONVERGENCE, "Open or close the convergence chart", |model| lower(model, LowerPanel::Convergence)),
+    Binding::new(ACCURACY, "Open or close the chart of errors over time", |model| lower(model, LowerPanel::Accuracy)),
     Binding::new(HARD_CASES, "Open or close the hard cases", |model| lower(model, LowerPanel::HardCases)),
     Binding::new(MATRIX, "Show the matrix of form factors", |_| Some(Action::ShowDialog(Dialog::Matrix))),
     Binding::new(FIT, "Fit the scene into the view", |model| camera(model, CameraMove::Fit)),
@@ -182,6 +184,7 @@ pub fn of_view(view: View) -> KeyboardShortcut {
 pub fn of_lower_panel(panel: LowerPanel) -> KeyboardShortcut {
     match panel {
         LowerPanel::Convergence => CONVERGENCE,
+        LowerPanel::Accuracy => ACCURACY,
         LowerPanel::HardCases => HARD_CASES,
     }
 }

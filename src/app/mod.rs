@@ -21,6 +21,7 @@ mod preferences;
 pub mod theme;
 mod viewport_pane;
 pub mod views;
+pub mod wish;
 
 pub use explorer::Explorer;
 

@@ -4,14 +4,17 @@ use super::chart::Chart;
 use super::diagrams::MatrixTexture;
 use super::effects::EffectFacts;
 use super::patch::PatchFacts;
+use super::wish::Wish;
+use crate::accuracy::Truth;
 use crate::choice::Choice;
 use crate::cli::picture::{self, Format};
 use crate::math::rgb::Rgb64;
 use crate::methods::{Settings, Solver};
 use crate::scene::{Finding, FindingKind};
 use crate::solution::{CameraImage, CameraView, Gathered, PhotonSolution, PhotonTrail, Solution, VertexShares};
+use crate::study::Answer;
 use crate::viewport::{Exposure, Legend, PhotonLook, ToneCurve, View};
-use crate::worker::{CheckReport, Curve, LightKind, Phase, Snapshot, Subject};
+use crate::worker::{CheckReport, Curve, LightKind, Phase, Snapshot, Subject, Track};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
@@ -62,6 +65,13 @@ pub struct Model<'a> {
     pub patch: Option<PatchFacts<'a>>,
     /// How the runs on this scene went, the one under way last.
     pub curves: &'a [Arc<Curve>],
+    /// How far off they were, in the order in which they began.
+    pub tracks: &'a [Arc<Track>],
+    /// What they are held against, as far as it is known.
+    pub truth: Option<&'a Truth>,
+    /// What is wanted of light, and what is being looked for.
+    pub wish: Wish,
+    pub inquiry: Option<&'a Answer>,
     /// How the hard cases went; `None` before they were run.
     pub checks: Option<&'a CheckReport>,
     /// Scene files that were opened before, newest first.
@@ -247,16 +257,18 @@ impl Default for Look {
 #[serde(rename_all = "kebab-case")]
 pub enum LowerPanel {
     Convergence,
+    Accuracy,
     HardCases,
 }
 
 impl Choice for LowerPanel {
-    const ALL: &'static [Self] = &[Self::Convergence, Self::HardCases];
+    const ALL: &'static [Self] = &[Self::Convergence, Self::Accuracy, Self::HardCases];
     const KIND: &'static str = "panel";
 
     fn name(self) -> &'static str {
         match self {
             Self::Convergence => "convergence",
+            Self::Accuracy => "accuracy",
             Self::HardCases => "hard-cases",
         }
     }
@@ -264,6 +276,7 @@ impl Choice for LowerPanel {
     fn label(self) -> &'static str {
         match self {
             Self::Convergence => "Convergence",
+            Self::Accuracy => "Accuracy",
             Self::HardCases => "Hard cases",
         }
     }
@@ -271,6 +284,9 @@ impl Choice for LowerPanel {
     fn meaning(self) -> &'static str {
         match self {
             Self::Convergence => "How fast each run on this scene came near its end, on one chart",
+            Self::Accuracy => {
+                "How far off each run on this scene was after how much time, against a path-traced reference"
+            }
             Self::HardCases => "Numbers on which programs of this kind break, each held against what it should be",
         }
     }

@@ -2,6 +2,7 @@
 
 use super::chart::Chart;
 use super::model::{LowerPanel, Theme};
+use super::wish::Wish;
 use std::path::{Path, PathBuf};
 
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -13,11 +14,13 @@ pub struct Preferences {
     /// What is open below the viewport.
     pub lower: Option<LowerPanel>,
     pub chart: Chart,
+    /// The error that is wanted, and the time allowed.
+    pub wish: Wish,
 }
 
 impl Default for Preferences {
     fn default() -> Self {
-        Self { theme: Theme::Dark, recent: Vec::new(), lower: None, chart: Chart::default() }
+        Self { theme: Theme::Dark, recent: Vec::new(), lower: None, chart: Chart::default(), wish: Wish::default() }
     }
 }
 

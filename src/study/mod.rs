@@ -2,6 +2,7 @@
 
 mod attempt;
 mod bench;
+mod inquiry;
 mod knob;
 mod memory;
 mod recipe;
@@ -10,6 +11,7 @@ mod sweep;
 
 pub use attempt::{CannotTry, Light, Outcome, Verdict, attempt};
 pub use bench::Bench;
+pub use inquiry::{Answer, Choice, Inquiry, Question};
 pub use knob::{Gain, Knob, Setting, Turn, gains};
 pub use memory::{Known, Memory};
 pub use recipe::{Recipe, Way};

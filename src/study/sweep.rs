@@ -17,8 +17,9 @@ use std::time::{Duration, Instant};
 const RECIPES: f64 = 0.7;
 /// Share of it that path tracing gets, which is never done.
 const PATHS: f64 = 0.15;
-/// A recipe may take at most so much of the time that is left for all.
+/// A recipe may take at most this share of the time that is left for all, and so many times a fair one: most need far less.
 const AT_MOST: f64 = 0.2;
+const FAIR_SHARES: f64 = 4.0;
 
 /// A slope is that of the last part of a run: from its end back to where it had taken this many times less.
 const LAST: f64 = 10.0;
@@ -82,7 +83,8 @@ pub fn study(
         tell(&Progress { done: run, of: recipes.len(), recipe: Some(recipe) });
         let now = Instant::now();
         let is_last = run + 1 == recipes.len();
-        let end = if is_last { end_of_recipes } else { now + left(now, end_of_sweep).mul_f64(AT_MOST) };
+        let share = (FAIR_SHARES / (recipes.len() - run) as f64).min(AT_MOST);
+        let end = if is_last { end_of_recipes } else { now + left(now, end_of_sweep).mul_f64(share) };
         let tried = attempt(bench, recipe, end, cancel, &mut |outcome| {
             outcomes.push((run, Outcome { light: None, ..outcome }));
             Verdict::Continue(())

@@ -35,6 +35,8 @@ pub enum Command {
     Gather(Option<Spot>),
     /// Says what is on show: it is worked on first, and a picture from a camera is made anew where anything of it changed.
     Look(Sight),
+    /// Lets the measuring of errors wait, or go on: something else wants the processors.
+    Hush(bool),
 }
 
 /// What is on show.

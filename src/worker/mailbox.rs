@@ -150,6 +150,7 @@ fn merge(commands: &mut VecDeque<Command>, new: Command) {
                 commands.remove(since - 1);
             }
         }
+        Command::Hush(_) => commands.retain(|old| !matches!(old, Command::Hush(_))),
         Command::AddCeilingLight => {}
     }
     commands.push_back(new);

@@ -12,9 +12,9 @@ fn cells(line: &str) -> Vec<&str> {
 fn a_study_keeps_its_budget_and_its_front_is_monotonic() {
     let folder = folder();
     let start = Instant::now();
-    let report = json(&folder, "study empty-box -o cost --budget 15 --json");
+    let report = json(&folder, "study cornell-box -o cost --budget 20 --json");
     let seconds = start.elapsed().as_secs_f64();
-    assert!((13.5..16.5).contains(&seconds), "{seconds}");
+    assert!((18.0..22.0).contains(&seconds), "{seconds}");
     let runs = report["runs"].as_array().expect("a list");
     let fields = [
         "bytes",

@@ -90,7 +90,7 @@ fn round_step(least: f64) -> f64 {
 }
 
 /// Lines at every tenth, and faint ones at 2, 3, … 9 times that.
-fn decades(input: GridInput) -> Vec<GridMark> {
+pub fn decades(input: GridInput) -> Vec<GridMark> {
     let (low, high) = (input.bounds.0.floor() as i32, input.bounds.1.ceil() as i32);
     let within = |value: f64| (input.bounds.0..=input.bounds.1).contains(&value);
     let marks = (low..=high).flat_map(|decade| {

@@ -1,5 +1,6 @@
 //! The panels: each a function from what is on show to what the person wants. None of them changes anything itself.
 
+mod accuracy;
 mod banner;
 mod chart;
 mod diagrams;

@@ -4,7 +4,7 @@ use crate::app::format;
 use crate::app::model::{Model, SceneFacts};
 use crate::app::theme::UNIT;
 use crate::solution::{CameraImage, PhotonSolution, Solution, VertexShares};
-use crate::worker::{LightKind, Phase};
+use crate::worker::{LightKind, Phase, TrackPoint};
 use egui::{Align, Layout, RichText, Ui};
 use std::time::Duration;
 
@@ -36,12 +36,29 @@ fn work(ui: &mut Ui, model: &Model) {
     if let Some(picture) = model.image {
         image(ui, picture);
     }
+    if model.image.is_none() {
+        error(ui, model);
+    }
     match (model.light(), model.solution, model.photons, model.occlusion) {
         (Some(LightKind::Radiosity), Some(solution), ..) if model.image.is_none() => radiosity(ui, model, solution),
         (Some(LightKind::Photons), _, Some(found), _) => photons(ui, found, model.image.is_some()),
         (Some(LightKind::Occlusion), _, _, Some(found)) => occlusion(ui, found),
         _ => {}
     }
+}
+
+/// How far off the light on show is, as it was measured last.
+fn error(ui: &mut Ui, model: &Model) {
+    let track = model.tracks.iter().rfind(|track| Some(track.kind) == model.light());
+    let Some(TrackPoint { seconds, error }) = track.and_then(|track| track.points.last()) else { return };
+    let hover = format!(
+        "Root mean square error of the irradiance at points spread over all surfaces, as a share of its mean: {} ± {} after \
+         {}, against a path-traced reference",
+        format::percent(error.rms),
+        format::percent(error.uncertainty),
+        format::si(*seconds, "s"),
+    );
+    item(ui, format!("error {}", format::percent(error.rms)), &hover);
 }
 
 fn image(ui: &mut Ui, image: &CameraImage) {

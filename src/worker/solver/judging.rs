@@ -15,7 +15,7 @@ impl<W: Workshop> Solver<W> {
     /// What there is to measure, for as long as nothing waits for it.
     pub(super) fn judging_to_do(&self, is_busy: bool) -> Option<Task> {
         let world = self.snapshot.world.as_ref().filter(|world| world.census.light_may_arrive)?;
-        if self.judge.has_crashed || is_busy && !self.judge.may_interrupt() {
+        if self.is_hushed || self.judge.has_crashed || is_busy && !self.judge.may_interrupt() {
             return None;
         }
         debug_assert!(self.judge.reference().is_none_or(|reference| reference.is_about(world)));

@@ -41,6 +41,8 @@ pub struct Solver<W: Workshop> {
     easel: Easel<W::Image>,
     history: History,
     judge: Judge,
+    /// Whether measuring waits for something else.
+    is_hushed: bool,
     /// A patch to be looked from when there is no command to serve.
     wish: Option<u32>,
     /// Where the estimate from photons is looked into.
@@ -113,6 +115,7 @@ impl<W: Workshop> Solver<W> {
             easel: Easel::default(),
             history: History::default(),
             judge: Judge::default(),
+            is_hushed: false,
             wish: None,
             spot: None,
             lead: 0.0,
@@ -152,6 +155,7 @@ impl<W: Workshop> Solver<W> {
             Command::PickPhoton(photon) => self.pick_photon(photon),
             Command::Gather(spot) => self.gather(spot),
             Command::Look(sight) => self.look(sight),
+            Command::Hush(is_hushed) => self.is_hushed = is_hushed,
         }
     }
 

@@ -1,0 +1,284 @@
+//! Error over solver time, both by their logarithms: one curve for each run on this scene, and what is wanted.
+
+use super::chart::decades;
+use super::widgets::chip;
+use crate::accuracy::{Offer, slope};
+use crate::app::action::Action;
+use crate::app::chart::descriptions_of_tracks;
+use crate::app::format;
+use crate::app::model::Model;
+use crate::app::theme::{Palette, UNIT};
+use crate::app::wish::Wish;
+use crate::choice::Choice as _;
+use crate::study::{Answer, Choice, Measured, Question, Way};
+use crate::worker::{Track, TrackPoint};
+use egui::{Button, Color32, DragValue, Label, RichText, ScrollArea, Sense, Ui, Vec2, vec2};
+use egui_plot::{
+    GridMark, HLine, HoverPosition, ItemId, Line, LineStyle, Plot, PlotPoints, PlotUi, Points, Polygon, VLine,
+};
+use std::sync::Arc;
+use std::time::Duration;
+
+/// Width of the legend.
+const LEGEND_WIDTH: f32 = 76.0 * UNIT;
+/// What is on show before anything was measured: seconds and errors as powers of ten.
+const SECONDS: [f64; 2] = [-2.0, 1.0];
+const ERRORS: [f64; 2] = [-2.0, 0.0];
+/// A slope is that of the last part of a run: from its end back to where it had taken this many times less.
+const LAST: f64 = 10.0;
+/// How long a study from the window takes.
+const STUDY: Duration = Duration::from_secs(60);
+
+/// In a row: what is wanted, and the buttons that look for it.
+pub fn controls(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
+    let Wish { mut error, mut seconds } = model.wish;
+    ui.label("Error up to");
+    let percent = DragValue::from_get_set(|new| {
+        error = new.map_or(error, |percent| percent / 100.0);
+        100.0 * error
+    });
+    ui.add(percent.range(0.1..=100.0).speed(0.1).suffix(" %"))
+        .on_hover_text("The error that is wanted, as a share of the mean irradiance: the horizontal line");
+    ask(
+        ui,
+        model,
+        "Reach it",
+        "Look for the cheapest method and settings with at most this error",
+        Question::Error(error),
+        actions,
+    );
+    ui.add_space(2.0 * UNIT);
+    ui.label("Time up to");
+    ui.add(DragValue::new(&mut seconds).range(0.1..=3600.0).speed(0.1).suffix(" s"))
+        .on_hover_text("The time allowed: the vertical line");
+    let time = Duration::from_secs_f64(seconds);
+    ask(
+        ui,
+        model,
+        "Use it",
+        "Look for the most accurate method and settings in this time",
+        Question::Time(time),
+        actions,
+    );
+    ui.add_space(2.0 * UNIT);
+    ask(
+        ui,
+        model,
+        "Study",
+        "Try all ways on this scene for a minute, and draw what each costs",
+        Question::Study(STUDY),
+        actions,
+    );
+    let wish = Wish { error, seconds };
+    if wish != model.wish {
+        actions.push(Action::SetWish(wish));
+    }
+    if let Some(answer) = model.inquiry {
+        tell(ui, answer, actions);
+    }
+}
+
+/// A button that asks a question about the open scene.
+fn ask(ui: &mut Ui, model: &Model, label: &str, hover: &str, question: Question, actions: &mut Vec<Action>) {
+    let is_asking = model.inquiry.is_some_and(|answer| answer.doing.is_some());
+    let can_ask = model.scene.is_some_and(|scene| !scene.is_dark()) && !is_asking;
+    if ui.add_enabled(can_ask, Button::new(label)).on_hover_text(hover).clicked() {
+        actions.push(Action::Inquire(question));
+    }
+}
+
+/// How far an answer is, or what it is.
+fn tell(ui: &mut Ui, answer: &Answer, actions: &mut Vec<Action>) {
+    if let Some(doing) = &answer.doing {
+        if ui.button("Stop").clicked() {
+            actions.push(Action::StopInquiry);
+        }
+        ui.add(Label::new(RichText::new(doing).small().weak()).truncate());
+        return;
+    }
+    let text = match (&answer.found, answer.is_dark) {
+        (_, true) => "There is no light to measure".to_owned(),
+        (Some(choice), false) => in_words(answer.question, choice),
+        (None, false) => "Studied: each dot is a state of a run".to_owned(),
+    };
+    ui.add(Label::new(RichText::new(&text).small()).truncate()).on_hover_text(text);
+}
+
+/// What was promised and what came of it, with a plain word where that was not kept.
+fn in_words(question: Question, choice: &Choice) -> String {
+    let Choice { recipe, error, seconds, .. } = choice;
+    let kept = match question {
+        Question::Error(wanted) if error.rms > wanted => "not reached: ",
+        _ => "",
+    };
+    let [error, uncertainty] = [error.rms, error.uncertainty].map(format::percent);
+    format!("{kept}{error} ± {uncertainty} in {} by {}", format::si(*seconds, "s"), recipe.label())
+}
+
+pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
+    let descriptions = descriptions_of_tracks(model.tracks);
+    let height = ui.available_height();
+    ui.horizontal_top(|ui| {
+        plot(ui, model, &descriptions, vec2(ui.available_width() - LEGEND_WIDTH - 3.0 * UNIT, height), actions);
+        ui.vertical(|ui| legend(ui, model, &descriptions, actions));
+    });
+}
+
+fn plot(ui: &mut Ui, model: &Model, descriptions: &[String], size: Vec2, actions: &mut Vec<Action>) {
+    let palette = Palette::of(ui.visuals());
+    let is_power = |mark: GridMark| mark.step_size == 1.0;
+    let plot =
+        Plot::new("errors over time")
+            .width(size.x)
+            .height(size.y)
+            .show_background(false)
+            .grid_color(ui.visuals().weak_text_color().gamma_multiply(0.6))
+            .include_x(SECONDS[0])
+            .include_x(SECONDS[1])
+            .include_y(ERRORS[0])
+            .include_y(ERRORS[1])
+            .allow_scroll(false)
+            .y_axis_min_width(12.0 * UNIT)
+            .x_grid_spacer(decades)
+            .y_grid_spacer(decades)
+            .x_axis_formatter(
+                move |mark, _| {
+                    if is_power(mark) { format::short(10_f64.powf(mark.value), "s") } else { String::new() }
+                },
+            )
+            .y_axis_formatter(move |mark, _| {
+                if is_power(mark) { format::percent_short(10_f64.powf(mark.value)) } else { String::new() }
+            })
+            .label_formatter(|position| match position {
+                HoverPosition::NearDataPoint { plot_name, position, .. } => {
+                    let [seconds, error] = [position.x, position.y].map(|power| 10_f64.powf(power));
+                    Some(format!("{plot_name}\n{} after {}", format::percent(error), format::si(seconds, "s")))
+                }
+                HoverPosition::Elsewhere { .. } => None,
+            });
+    let shown = plot.show(ui, |plot| {
+        floor(plot, model, palette);
+        wish(plot, model.wish, palette);
+        if let Some(study) = model.inquiry.and_then(|answer| answer.study.as_deref()) {
+            studied(plot, &study.measured, palette);
+        }
+        for (index, (track, description)) in model.tracks.iter().zip(descriptions).enumerate() {
+            let points: Vec<[f64; 2]> = track.points.iter().filter_map(logarithms).collect();
+            let is_last = index + 1 == model.tracks.len();
+            let (name, color) = (name(track, description), color(palette, track));
+            let line = Line::new(&name, PlotPoints::from(points.clone())).id(track.number).color(color);
+            plot.line(line.width(if is_last { 3.0 } else { 1.5 }));
+            plot.points(Points::new(name, points).id((track.number, "points")).color(color).radius(2.5));
+        }
+    });
+    let is_of = |track: &&Arc<Track>| {
+        shown
+            .hovered_plot_item
+            .is_some_and(|id| [ItemId::new(track.number), ItemId::new((track.number, "points"))].contains(&id))
+    };
+    if shown.response.clicked()
+        && let Some(track) = model.tracks.iter().find(is_of)
+    {
+        actions.push(Action::ApplySettings(track.settings));
+    }
+}
+
+/// The band in which the reference's own error is, and little can be told.
+fn floor(plot: &mut PlotUi<'_>, model: &Model, palette: Palette) {
+    let Some(floor) = model.truth.map(|truth| truth.floor).filter(|floor| floor.is_finite() && *floor > 0.0) else {
+        return;
+    };
+    // As far as is on show: it is no reason to show more.
+    let bounds = plot.plot_bounds();
+    let ([left, low], [right, top]) = (bounds.min(), bounds.max());
+    let high = floor.log10().min(top);
+    if !bounds.is_valid() || high <= low {
+        return;
+    }
+    let band = PlotPoints::from(vec![[left, low], [right, low], [right, high], [left, high]]);
+    let color = palette.escaped.gamma_multiply(0.15);
+    plot.add(Polygon::new("The reference's own error", band).fill_color(color).stroke((0.0, color)).allow_hover(false));
+}
+
+fn wish(plot: &mut PlotUi<'_>, wish: Wish, palette: Palette) {
+    let style = LineStyle::dashed_loose();
+    let (error, seconds) = (wish.error.log10(), wish.seconds.log10());
+    plot.hline(HLine::new("Wanted error", error).color(palette.accent).style(style).allow_hover(false));
+    plot.vline(VLine::new("Time allowed", seconds).color(palette.accent).style(style).allow_hover(false));
+}
+
+/// All that a study has measured, as dots.
+fn studied(plot: &mut PlotUi<'_>, measured: &[Measured], palette: Palette) {
+    for measured in measured.iter().filter(|measured| measured.error.rms > 0.0) {
+        let way = Way::ALL.iter().position(|way| *way == measured.recipe.way).unwrap_or_default();
+        let color = palette.curves[way % palette.curves.len()].gamma_multiply(0.6);
+        let at = [measured.seconds.log10(), measured.error.rms.log10()];
+        plot.points(Points::new(measured.recipe.label(), vec![at]).color(color).radius(1.5));
+    }
+}
+
+fn logarithms(point: &TrackPoint) -> Option<[f64; 2]> {
+    (point.error.rms > 0.0 && point.seconds > 0.0).then(|| [point.seconds.log10(), point.error.rms.log10()])
+}
+
+/// The runs, the newest first; a click brings the settings of one back.
+fn legend(ui: &mut Ui, model: &Model, descriptions: &[String], actions: &mut Vec<Action>) {
+    let palette = Palette::of(ui.visuals());
+    ScrollArea::vertical().id_salt("measured runs").auto_shrink(false).show(ui, |ui| {
+        ui.spacing_mut().item_spacing.y = UNIT;
+        if model.tracks.is_empty() {
+            ui.label(RichText::new(without_runs(model)).weak());
+        }
+        for (track, description) in model.tracks.iter().zip(descriptions).rev() {
+            ui.horizontal_top(|ui| {
+                chip(ui, color(palette, track));
+                let text = format!("{}: {}", name(track, description), state(track));
+                let label = ui.add(Label::new(RichText::new(&text).small()).truncate().sense(Sense::click()));
+                if label.on_hover_text(format!("{text}\nA click brings these settings back")).clicked() {
+                    actions.push(Action::ApplySettings(track.settings));
+                }
+            });
+        }
+        if let Some(truth) = model.truth.filter(|truth| truth.floor.is_finite()) {
+            let text = format!(
+                "Reference: {} paths a point, {}",
+                format::short(truth.paths as f64, ""),
+                format::percent(truth.floor)
+            );
+            ui.horizontal_top(|ui| {
+                chip(ui, palette.escaped);
+                ui.label(RichText::new(text).small()).on_hover_text(
+                    "The truth at 1024 points, path traced, and its own error; it gets better in the background",
+                );
+            });
+        }
+    });
+}
+
+fn without_runs(model: &Model) -> &'static str {
+    if model.scene.is_some_and(|scene| scene.is_dark()) {
+        "Without an emitter there is no light to measure"
+    } else {
+        "Runs on this scene come here once they are measured"
+    }
+}
+
+/// How far off a run is, and how fast that falls.
+fn state(track: &Track) -> String {
+    let Some(last) = track.points.last() else { return String::new() };
+    let error = format::percent(last.error.rms);
+    let from = last.seconds / LAST;
+    let recent = track.points.iter().filter(|point| point.seconds >= from);
+    let offers: Vec<Offer> = recent.map(|point| Offer { seconds: point.seconds, error: point.error.rms }).collect();
+    let slope = slope(&offers).map(|slope| format!(", slope {slope:.2}").replace('-', "−"));
+    format!("{error}{}", slope.unwrap_or_default())
+}
+
+fn name(track: &Track, description: &str) -> String {
+    format!("{} {description}", track.number)
+}
+
+/// A run keeps its colour as long as it is shown.
+fn color(palette: Palette, track: &Track) -> Color32 {
+    palette.curves[(track.number as usize - 1) % palette.curves.len()]
+}
