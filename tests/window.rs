@@ -5,6 +5,8 @@
 mod crowds;
 #[path = "window/effects.rs"]
 mod effects;
+#[path = "window/equation.rs"]
+mod equation;
 #[path = "window/keyboard.rs"]
 mod keyboard;
 #[path = "window/looking.rs"]

@@ -7,6 +7,8 @@ use lightwell::app::action::Action;
 use lightwell::app::chart::Chart;
 use lightwell::app::diagrams::MatrixTexture;
 use lightwell::app::effects::EffectFacts;
+use lightwell::app::equation::EquationFacts;
+use lightwell::app::marks::Marks;
 use lightwell::app::model::{Dialog, FrameTime, Look, LowerPanel, Model, Notice, SceneFacts, Theme};
 use lightwell::app::patch::{PatchFacts, PatchLight};
 use lightwell::app::{panels, theme};
@@ -20,8 +22,8 @@ use lightwell::mesh::MeshSettings;
 use lightwell::methods::{Settings, Solver};
 use lightwell::scene::{Finding, FindingKind, Scene, Severity, Viewpoint};
 use lightwell::solution::{
-    CameraImage, CameraView, Closure, Counters, Energy, Gathered, PhotonCounters, PhotonEnergy, PhotonSolution,
-    PhotonTrail, Progress, Scattering, Solution, TrailPlace, VertexShares,
+    CameraImage, CameraView, Closure, Counters, Energy, Equation, Gathered, PhotonCounters, PhotonEnergy,
+    PhotonSolution, PhotonTrail, Progress, Scattering, Solution, TrailPlace, VertexShares,
 };
 use lightwell::viewport::colour_map::ColourMap;
 use lightwell::viewport::diagram::Swatch;
@@ -59,6 +61,8 @@ pub struct Stage {
     pub pictures: Option<(MatrixTexture, TextureHandle)>,
     pub checks: Option<CheckReport>,
     pub patch: Option<PatchFacts<'static>>,
+    /// In [`WORLD`].
+    pub equation: Option<Equation>,
     pub curves: Vec<Arc<Curve>>,
     pub notices: Vec<Notice>,
     pub dialog: Option<Dialog>,
@@ -66,12 +70,14 @@ pub struct Stage {
     pub actions: Vec<Action>,
 }
 
-/// Of a scene that is all diffuse and open.
-static PLAN: LazyLock<Plan> = LazyLock::new(|| {
+/// A scene that is all diffuse and open.
+pub static WORLD: LazyLock<Arc<World>> = LazyLock::new(|| {
     let scene = Scene::open("cornell-box").expect("a built-in scene");
     let mesh = MeshSettings { element_size: Some(0.2), ..MeshSettings::default() };
-    plan(&World::build(scene, &mesh, &Cancel::default()).expect("a world"))
+    Arc::new(World::build(scene, &mesh, &Cancel::default()).expect("a world"))
 });
+
+static PLAN: LazyLock<Plan> = LazyLock::new(|| plan(&WORLD));
 
 /// Radiosity with shadows.
 pub fn effects() -> Vec<Entry> {
@@ -112,6 +118,7 @@ impl Default for Stage {
             pictures: None,
             checks: None,
             patch: None,
+            equation: None,
             curves: Vec::new(),
             notices: Vec::new(),
             dialog: None,
@@ -170,6 +177,11 @@ impl Stage {
             item_buffer: self.pictures.as_ref().map(|(_, item_buffer)| item_buffer),
             checks: self.checks.as_ref(),
             patch: self.patch,
+            equation: self.equation.as_ref().map(|equation| EquationFacts { equation, world: &WORLD }),
+            marks: self
+                .equation
+                .as_ref()
+                .map(|equation| Marks::of(equation, &Camera::new(&WORLD.viewpoint, &WORLD.bounds), [952, 646])),
             curves: &self.curves,
             recent: &self.recent,
             notices: &self.notices,

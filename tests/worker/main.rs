@@ -2,6 +2,7 @@
 
 mod commands;
 mod fake;
+mod inquiry;
 mod interruption;
 mod lights;
 mod occlusion;

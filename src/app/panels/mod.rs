@@ -2,16 +2,19 @@
 
 mod banner;
 mod chart;
+mod contributors;
 mod diagrams;
 mod dialogs;
 mod effects;
 mod energy;
+mod equation;
 mod exposure;
 mod findings;
 mod hard_cases;
 mod icons;
 mod legend;
 mod lower;
+mod marks;
 mod menu_bar;
 mod notices;
 mod patch;

@@ -1,5 +1,6 @@
 //! The picture of the light, the camera under the mouse, and what to show where there is no picture.
 
+use super::marks;
 use crate::app::action::{Action, CameraMove};
 use crate::app::model::Model;
 use crate::app::theme::UNIT;
@@ -23,6 +24,9 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>, paint: impl F
     ui.painter().rect_filled(rect, 0, ui.visuals().extreme_bg_color);
     if model.scene.is_some() {
         paint(ui, rect);
+        if let Some(marks) = &model.marks {
+            marks::show(ui, rect, marks);
+        }
         camera(ui, &response, actions);
         pick(ui, model, &response, actions);
     } else if *model.phase == Phase::Empty {
@@ -57,7 +61,8 @@ fn pick(ui: &Ui, model: &Model, response: &Response, actions: &mut Vec<Action>) 
     let Some(position) = clicked else { return };
     let at = (position - response.rect.min) / response.rect.size();
     let shift = ui.input(|input| input.modifiers.shift);
-    let is_point = shift && ViewGroup::of(model.look.view) == ViewGroup::PhotonMap;
+    let has_points = matches!(ViewGroup::of(model.look.view), ViewGroup::PhotonMap | ViewGroup::Radiosity);
+    let is_point = shift && has_points;
     actions.push(if is_point { Action::PickPoint(at) } else { Action::Pick(at) });
 }
 

@@ -15,6 +15,7 @@ use super::{Command, LightKind, Phase, Sight, Slot, Snapshot, Spot, Subject};
 use crate::errors::with_causes;
 use crate::scene::Scene;
 use easel::Easel;
+use picks::Inquiry;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -38,8 +39,8 @@ pub struct Solver<W: Workshop> {
     occlusion: Light<OcclusionRun>,
     easel: Easel<W::Image>,
     history: History,
-    /// A patch to be looked from when there is no command to serve.
-    wish: Option<u32>,
+    /// What is picked in the light on surfaces.
+    inquiry: Inquiry,
     /// Where the estimate from photons is looked into.
     spot: Option<Spot>,
     /// By how much longer the light on show was worked on than the picture that is read off it, since both wanted to be.
@@ -81,11 +82,13 @@ impl<R> Default for Light<R> {
 enum Part {
     Light(LightKind),
     Picture,
+    Inquiry,
 }
 
 /// What there is to do without a command.
 enum Task {
     LookFrom(u32),
+    Equation,
     Light(LightKind),
     Picture,
 }
@@ -104,7 +107,7 @@ impl<W: Workshop> Solver<W> {
             occlusion: Light::default(),
             easel: Easel::default(),
             history: History::default(),
-            wish: None,
+            inquiry: Inquiry::default(),
             spot: None,
             lead: 0.0,
             at_work: Part::Light(LightKind::Radiosity),
@@ -140,6 +143,7 @@ impl<W: Workshop> Solver<W> {
             Command::Pause => self.pause(),
             Command::Reset => self.reset(),
             Command::Pick(place) => self.pick(place),
+            Command::PickSource(place) => self.pick_source(place),
             Command::PickPhoton(photon) => self.pick_photon(photon),
             Command::Gather(spot) => self.gather(spot),
             Command::Look(sight) => self.look(sight),
@@ -149,8 +153,11 @@ impl<W: Workshop> Solver<W> {
     /// What is on show comes first: its picture and its light by turns, the first coarse picture before its light. Then the
     /// lights go on that are not on show.
     fn next_task(&mut self) -> Option<Task> {
-        if let Some(patch) = self.wish {
+        if let Some(patch) = self.patch_to_look_from() {
             return Some(Task::LookFrom(patch));
+        }
+        if self.is_equation_due() {
+            return Some(Task::Equation);
         }
         let light = self.subject().light().filter(|&kind| self.going(kind).is_running());
         let picture = self.picture_to_do();
@@ -169,6 +176,7 @@ impl<W: Workshop> Solver<W> {
         let start = Instant::now();
         let sign = match task {
             Task::LookFrom(patch) => return self.look_from(patch),
+            Task::Equation => return self.look_into_equation(),
             Task::Light(kind) => {
                 self.step(kind);
                 1.0
@@ -239,6 +247,10 @@ impl<W: Workshop> Solver<W> {
                 self.easel.clear();
                 self.easel.has_crashed = true;
                 "picture from the camera"
+            }
+            Part::Inquiry => {
+                self.forget_picked();
+                "look at what is picked"
             }
         };
         self.loading = None;

@@ -1,0 +1,102 @@
+//! Where the radiosity of the picked patch comes from: emission, the patches that contribute most, and what is left.
+
+use super::legend;
+use super::widgets::{chip, figure_row};
+use crate::app::action::Action;
+use crate::app::equation::EquationFacts;
+use crate::app::format;
+use crate::app::theme::UNIT;
+use crate::math::rgb::{Rgb, Rgb64};
+use egui::{Align, Button, Color32, Label, Layout, RichText, Ui};
+
+/// Width of a share.
+const SHARE_WIDTH: f32 = 15.0 * UNIT;
+
+pub fn show(ui: &mut Ui, facts: &EquationFacts, actions: &mut Vec<Action>) {
+    let balance = &facts.equation.balance;
+    let title = format!("Radiosity of patch {}", format::count(balance.patch.into()));
+    ui.label(RichText::new(title).strong())
+        .on_hover_text("Which share of it comes from where; together it is all of it");
+    if balance.emission != Rgb64::ZERO {
+        part(ui, facts, "Emission M", balance.emission, "Light that the patch makes");
+    }
+    for contribution in &balance.largest {
+        let name = format!("{}, {}", facts.name_of_patch(contribution.patch), format::count(contribution.patch.into()));
+        let hover = format!(
+            "ρ F B = {} with F = {}. Click to look at what it sends.",
+            watts_per_area(contribution.light),
+            format::percent(contribution.form_factor)
+        );
+        row(ui, facts, contribution.light, &hover, |ui| {
+            if ui.add(Button::new(&name).frame(false).truncate()).on_hover_text(&hover).clicked() {
+                actions.push(Action::PickSource(contribution.patch));
+            }
+        });
+    }
+    if balance.other_count > 0 {
+        let others = format::counted(balance.other_count as u64, "other patch");
+        part(ui, facts, &others, balance.others, "ρ Σ F B over all other patches");
+    }
+    if balance.unshot != Rgb64::ZERO {
+        let hover =
+            "The part of the light above that these patches have not shot yet, which is not in the radiosity shown";
+        part(ui, facts, "Not shot yet", -balance.unshot, hover);
+    }
+    let hover = if balance.is_by_matrix {
+        "Rounding, and direct light where it is switched off"
+    } else {
+        "The form factors of this list are computed anew, from this patch; the solver had those of each shot, scaled so that \
+         no light is lost. Direct light that is switched off is here, too."
+    };
+    part(ui, facts, "Form factors differ", balance.difference, hover);
+    ui.separator();
+    let total = format!("B = {}", watts_per_area(balance.radiosity));
+    line(ui, Color32::TRANSPARENT, facts.share(balance.radiosity), "M + ρ E, the mean over the patch", |ui| {
+        ui.add(Label::new(RichText::new(total).strong()).truncate());
+    });
+}
+
+/// A line with a name that is no patch.
+fn part(ui: &mut Ui, facts: &EquationFacts, name: &str, light: Rgb64, hover: &str) {
+    let hover = format!("{hover}: {}", watts_per_area(light));
+    row(ui, facts, light, &hover, |ui| {
+        ui.add(Label::new(RichText::new(name).weak()).truncate());
+    });
+}
+
+/// The colour of some light, its name, and its share of the radiosity.
+fn row(ui: &mut Ui, facts: &EquationFacts, light: Rgb64, hover: &str, name: impl FnOnce(&mut Ui)) {
+    line(ui, color(light), facts.share(light), hover, name);
+}
+
+fn line(ui: &mut Ui, color: Color32, share: Option<f64>, hover: &str, name: impl FnOnce(&mut Ui)) {
+    figure_row(ui, hover, |ui| {
+        if color == Color32::TRANSPARENT {
+            ui.add_space(3.0 * UNIT + ui.spacing().item_spacing.x);
+        } else {
+            chip(ui, color);
+        }
+        let size = egui::vec2(ui.available_width() - SHARE_WIDTH, ui.spacing().interact_size.y);
+        ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
+            ui.set_min_width(size.x);
+            name(ui);
+        });
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            ui.label(share.map_or(format::NO_VALUE.to_owned(), format::percent));
+        });
+    });
+}
+
+/// As bright as it can be shown; none for what is taken away, or is nothing.
+fn color(light: Rgb64) -> Color32 {
+    let largest = light.max_element();
+    if largest > 0.0 {
+        legend::color((light / largest).max(Rgb64::ZERO).as_vec3().min(Rgb::ONE))
+    } else {
+        Color32::TRANSPARENT
+    }
+}
+
+fn watts_per_area(light: Rgb64) -> String {
+    format::rgb(light.as_vec3(), "W/m²")
+}
