@@ -1,16 +1,14 @@
 //! Colours, type and spacing. Distances are multiples of 4, so that everything lines up.
 
 use egui::{
-    Color32, CornerRadius, FontDefinitions, FontFamily, FontId, IconData, Margin, Stroke, Style, TextStyle, Theme,
-    Visuals, vec2,
+    Color32, CornerRadius, FontFamily, FontId, IconData, Margin, Stroke, Style, TextStyle, Theme, Visuals, vec2,
 };
 
 /// The grid that every distance is a multiple of.
 pub const UNIT: f32 = 4.0;
 
-/// Applies fonts and both themes to `ctx`; which one is on show is chosen by [`egui::Context::set_theme`].
+/// Applies both themes to `ctx`; which one is on show is chosen by [`egui::Context::set_theme`].
 pub fn install(ctx: &egui::Context) {
-    ctx.set_fonts(fonts());
     for theme in [Theme::Dark, Theme::Light] {
         ctx.set_style_of(theme, style(theme));
     }
@@ -96,13 +94,6 @@ pub fn icon() -> IconData {
         [r, g, b, if distance < 0.5 { 255 } else { 0 }]
     };
     IconData { rgba: (0..SIDE * SIDE).flat_map(pixel).collect(), width: SIDE, height: SIDE }
-}
-
-/// egui's own. Its font for text lacks the primes of x′ and x″, which its font for code has.
-fn fonts() -> FontDefinitions {
-    let mut fonts = FontDefinitions::default();
-    fonts.families.entry(FontFamily::Proportional).or_default().push("Hack".to_owned());
-    fonts
 }
 
 fn style(theme: Theme) -> Style {

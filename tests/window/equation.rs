@@ -15,7 +15,7 @@ use lightwell::methods::{Settings, Solver, Step};
 use lightwell::solution::{Equation, Visibility};
 use lightwell::viewport::View;
 
-/// What sends light to the middle of the floor of the Cornell box, and what the middle of the tall block's first patch sends there.
+/// What sends light to the floor of the Cornell box, and what the middle of the patch that contributes most sends there.
 pub fn equation() -> Equation {
     let settings = Settings { solver: Solver::GaussSeidel, ..Settings::default() };
     let mut method = radiosity::start(WORLD.clone(), &settings);
@@ -26,7 +26,9 @@ pub fn equation() -> Equation {
     let balance = light.balance(&Cancel::default()).expect("nothing cancels it");
     let middle = |patch: u32| Vec3::from(WORLD.mesh.patches[patch as usize].center);
     let lamp = balance.largest[0].patch;
-    let points = Points { eye: WORLD.viewpoint.eye.as_dvec3(), point: middle(0), source: Some((middle(lamp), lamp)) };
+    // On the floor before the blocks.
+    let point = Vec3::new(0.3, 0.0, 0.03);
+    let points = Points { eye: WORLD.viewpoint.eye.as_dvec3(), point, source: Some((middle(lamp), lamp)) };
     light.equation(&points, balance)
 }
 
@@ -47,8 +49,8 @@ fn the_panel_opens_and_closes_by_tab_key_and_button() {
 fn it_says_what_to_do_next() {
     let one = Equation { source: None, ..equation() };
     for (stage, hint) in [
-        (opened(None), "Click a point x′ to see where its light comes from."),
-        (opened(Some(one)), "Shift and click a second point, x″, or click a patch in the list."),
+        (opened(None), "Click a point x' to see where its light comes from."),
+        (opened(Some(one)), "Shift and click a second point, x'', or click a patch in the list."),
         (Stage { lower: Some(LowerPanel::Equation), ..showing(View::Photons) }, "Choose a view of radiosity first."),
     ] {
         stage.window(LARGE).get_by_label(hint);
@@ -62,14 +64,14 @@ fn the_equation_is_written_in_symbols_and_in_numbers() {
         let source = equation.source.expect("a second point");
         let harness = Stage { theme, ..opened(Some(equation.clone())) }.window(size);
         for symbol in [
-            "L(x, x′)",
-            "= δ(x, x′)",
-            "[ E(x, x′)",
+            "L(x, x')",
+            "= δ(x, x')",
+            "[ E(x, x')",
             "+ ∫",
-            "ρ(x, x″)",
-            "L(x′, x″)",
-            "G(x′, x″)",
-            "dx″ ]",
+            "ρ(x, x'')",
+            "L(x', x'')",
+            "G(x', x'')",
+            "dx'' ]",
             "1/sr",
             "1/m²",
         ] {
@@ -78,9 +80,9 @@ fn the_equation_is_written_in_symbols_and_in_numbers() {
         for number in format::channels(source.integrand().as_vec3()) {
             assert!(harness.query_all_by_label(&number).next().is_some(), "{number}");
         }
-        harness.get_by_label(&format!("cos θ′ cos θ″ / r² = {} 1/m²", format::figure(source.geometry())));
-        harness.get_by_label("1. Nothing stands between the eye and x′.");
-        harness.get_by_label("1. Nothing stands between x′ and x″.");
+        harness.get_by_label(&format!("cos θ' cos θ'' / r² = {} 1/m²", format::figure(source.geometry())));
+        harness.get_by_label("1. Nothing stands between the eye and x'.");
+        harness.get_by_label("1. Nothing stands between x' and x''.");
         harness.get_by_label(&format!("{}, from the matrix", format::percent(source.form_factor)));
     }
 }
@@ -94,7 +96,7 @@ fn what_blocks_the_way_is_named() {
     source.visibility = Visibility::Blocked { polygon: polygon as u32, at: 0.5 * (equation.point + source.point) };
     equation.sight = Visibility::FacesAway;
     let harness = opened(Some(equation)).small();
-    harness.get_by_label("0. tall_block (white) stands between x′ and x″.");
+    harness.get_by_label("0. tall_block (white) stands between x' and x''.");
     harness.get_by_label("0. They do not face each other.");
 }
 

@@ -31,10 +31,10 @@ pub fn show(ui: &Ui, area: Rect, marks: &Marks) {
         }
     }
     if let Some(at) = marks.source.map(on_screen) {
-        point(&painter, at, "x″", true);
+        point(&painter, at, "x''", true);
     }
     if let Some(at) = marks.point.map(on_screen) {
-        point(&painter, at, "x′", marks.is_seen);
+        point(&painter, at, "x'", marks.is_seen);
     }
 }
 
