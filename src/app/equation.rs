@@ -34,14 +34,12 @@ impl<'a> EquationFacts<'a> {
         self.name_of_polygon(self.world.mesh.patches[patch as usize].polygon)
     }
 
-    /// What is between two points that are called so, as a sentence.
-    pub fn sentence(&self, visibility: Visibility, from: &str, to: &str) -> String {
+    /// What is between two points: `nothing stands between`.
+    pub fn between(&self, visibility: Visibility) -> String {
         match visibility {
-            Visibility::Free => format!("Nothing stands between {from} and {to}."),
-            Visibility::Blocked { polygon, .. } => {
-                format!("{} stands between {from} and {to}.", self.name_of_polygon(polygon))
-            }
-            Visibility::FacesAway => "They do not face each other.".to_owned(),
+            Visibility::Free => "nothing stands between".to_owned(),
+            Visibility::Blocked { polygon, .. } => format!("{} stands between", self.name_of_polygon(polygon)),
+            Visibility::FacesAway => "they do not face each other".to_owned(),
         }
     }
 

@@ -6,17 +6,21 @@ use crate::app::action::Action;
 use crate::app::equation::EquationFacts;
 use crate::app::format;
 use crate::app::theme::UNIT;
-use crate::math::rgb::{Rgb, Rgb64};
-use egui::{Align, Button, Color32, Label, Layout, RichText, Ui};
+use crate::math::rgb::Rgb64;
+use egui::{Align, Button, Color32, Label, Layout, RichText, Ui, vec2};
 
-/// Width of a share.
+/// Of all of it, beside the equation.
+pub const WIDTH: f32 = 84.0 * UNIT;
+/// Of a share.
 const SHARE_WIDTH: f32 = 15.0 * UNIT;
 
 pub fn show(ui: &mut Ui, facts: &EquationFacts, actions: &mut Vec<Action>) {
     let balance = &facts.equation.balance;
-    let title = format!("Radiosity of patch {}", format::count(balance.patch.into()));
-    ui.label(RichText::new(title).strong())
-        .on_hover_text("Which share of it comes from where; together it is all of it");
+    let title = format!("Radiosity B of patch {}", format::count(balance.patch.into()));
+    figure_row(ui, "M + ρ E, the mean over the patch, and which share of it comes from where", |ui| {
+        ui.label(RichText::new(title).strong());
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| ui.label(watts_per_area(balance.radiosity)));
+    });
     if balance.emission != Rgb64::ZERO {
         part(ui, facts, "Emission M", balance.emission, "Light that the patch makes");
     }
@@ -49,11 +53,8 @@ pub fn show(ui: &mut Ui, facts: &EquationFacts, actions: &mut Vec<Action>) {
          no light is lost. Direct light that is switched off is here, too."
     };
     part(ui, facts, "Form factors differ", balance.difference, hover);
-    ui.separator();
-    let total = format!("B = {}", watts_per_area(balance.radiosity));
-    line(ui, Color32::TRANSPARENT, facts.share(balance.radiosity), "M + ρ E, the mean over the patch", |ui| {
-        ui.add(Label::new(RichText::new(total).strong()).truncate());
-    });
+    let parts = balance.emission + balance.gathered() - balance.unshot + balance.difference;
+    part(ui, facts, "Together", parts, "All that is listed, which is the radiosity B");
 }
 
 /// A line with a name that is no patch.
@@ -66,35 +67,26 @@ fn part(ui: &mut Ui, facts: &EquationFacts, name: &str, light: Rgb64, hover: &st
 
 /// The colour of some light, its name, and its share of the radiosity.
 fn row(ui: &mut Ui, facts: &EquationFacts, light: Rgb64, hover: &str, name: impl FnOnce(&mut Ui)) {
-    line(ui, color(light), facts.share(light), hover, name);
-}
-
-fn line(ui: &mut Ui, color: Color32, share: Option<f64>, hover: &str, name: impl FnOnce(&mut Ui)) {
     figure_row(ui, hover, |ui| {
-        if color == Color32::TRANSPARENT {
-            ui.add_space(3.0 * UNIT + ui.spacing().item_spacing.x);
-        } else {
-            chip(ui, color);
+        match color(light) {
+            Some(color) => chip(ui, color),
+            None => ui.add_space(3.0 * UNIT + ui.spacing().item_spacing.x),
         }
-        let size = egui::vec2(ui.available_width() - SHARE_WIDTH, ui.spacing().interact_size.y);
+        let size = vec2(ui.available_width() - SHARE_WIDTH, ui.spacing().interact_size.y);
         ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
             ui.set_min_width(size.x);
             name(ui);
         });
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            ui.label(share.map_or(format::NO_VALUE.to_owned(), format::percent));
+            ui.label(facts.share(light).map_or(format::NO_VALUE.to_owned(), format::percent));
         });
     });
 }
 
-/// As bright as it can be shown; none for what is taken away, or is nothing.
-fn color(light: Rgb64) -> Color32 {
+/// As bright as it can be shown; none of what is taken away, or is nothing.
+fn color(light: Rgb64) -> Option<Color32> {
     let largest = light.max_element();
-    if largest > 0.0 {
-        legend::color((light / largest).max(Rgb64::ZERO).as_vec3().min(Rgb::ONE))
-    } else {
-        Color32::TRANSPARENT
-    }
+    (largest > 0.0).then(|| legend::color((light / largest).max(Rgb64::ZERO).as_vec3()))
 }
 
 fn watts_per_area(light: Rgb64) -> String {

@@ -12,14 +12,13 @@ use crate::app::views::ViewGroup;
 use crate::choice::Choice;
 use crate::math::rgb::Rgb64;
 use crate::solution::{LightSource, Visibility};
-use egui::{Color32, Grid, Label, RichText, ScrollArea, Ui};
+use egui::{Grid, Label, RichText, ScrollArea, Ui, vec2};
 
-/// Where there is less room than this, the contributors stand below the equation.
-const WIDE: f32 = 200.0 * UNIT;
-/// Of the contributors beside it.
-const CONTRIBUTORS_WIDTH: f32 = 76.0 * UNIT;
+/// Of the equation, and between it and the contributors beside it. Where there is less room, they stand below it.
+const WIDTH: f32 = 140.0 * UNIT;
+const GAP: f32 = 6.0 * UNIT;
 /// Of the names of figures.
-const NAME_WIDTH: f32 = 18.0 * UNIT;
+const NAME_WIDTH: f32 = 6.0 * UNIT;
 
 const RADIANCE: &str = "W/(m²·sr)";
 const PER_SR: &str = "1/sr";
@@ -40,24 +39,22 @@ pub fn head(ui: &mut Ui, model: &Model) {
 pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         let Some(facts) = model.equation else { return };
-        ui.spacing_mut().item_spacing.y = UNIT;
+        ui.spacing_mut().item_spacing.y = 0.0;
         let width = ui.available_width();
-        if width < WIDE {
+        if width < WIDTH + GAP + contributors::WIDTH {
             equation(ui, model, &facts);
             ui.add_space(2.0 * UNIT);
             contributors::show(ui, &facts, actions);
             return;
         }
         ui.horizontal_top(|ui| {
-            ui.spacing_mut().item_spacing.x = 6.0 * UNIT;
             ui.vertical(|ui| {
-                ui.spacing_mut().item_spacing.x = 2.0 * UNIT;
-                ui.set_width(width - CONTRIBUTORS_WIDTH - 8.0 * UNIT);
+                ui.set_width(WIDTH);
                 equation(ui, model, &facts);
             });
+            ui.add_space(GAP);
             ui.vertical(|ui| {
-                ui.spacing_mut().item_spacing.x = 2.0 * UNIT;
-                ui.set_width(CONTRIBUTORS_WIDTH);
+                ui.set_width(contributors::WIDTH);
                 contributors::show(ui, &facts, actions);
             });
         });
@@ -68,18 +65,12 @@ fn equation(ui: &mut Ui, model: &Model, facts: &EquationFacts) {
     terms(ui, &all_terms(facts));
     ui.add_space(UNIT);
     let equation = facts.equation;
-    fact(ui, "x'", place(facts, equation.balance.patch), "The point that was clicked");
-    sight(ui, facts, "δ(x, x')", equation.sight, ["the eye", "x'"]);
+    point(ui, facts, ["x'", "δ(x, x')"], equation.balance.patch, equation.sight);
     let Some(source) = &equation.source else { return };
-    fact(ui, "x''", place(facts, source.patch), "The second point");
-    sight(ui, facts, "δ(x', x'')", source.visibility, ["x'", "x''"]);
+    point(ui, facts, ["x''", "δ(x', x'')"], source.patch, source.visibility);
     geometry(ui, source);
-    let by = if equation.balance.is_by_matrix {
-        "from the matrix".to_owned()
-    } else {
-        format!("by the method {}", model.settings.form_factor.label())
-    };
-    exchange(ui, facts, source, &by);
+    let method = if equation.balance.is_by_matrix { "matrix" } else { model.settings.form_factor.label() };
+    exchange(ui, facts, source, method);
     material(ui, facts, source);
 }
 
@@ -181,59 +172,65 @@ fn terms(ui: &mut Ui, terms: &[Term]) {
 }
 
 /// A name, and what is to be said of it in the rest of the line.
-fn fact(ui: &mut Ui, name: &str, text: impl Into<RichText>, hover: &str) {
+fn fact(ui: &mut Ui, name: &str, hover: &str, say: impl FnOnce(&mut Ui)) {
     figure_row(ui, hover, |ui| {
-        let size = egui::vec2(NAME_WIDTH, ui.spacing().interact_size.y);
+        let size = vec2(NAME_WIDTH, ui.spacing().interact_size.y);
         ui.allocate_ui_with_layout(size, *ui.layout(), |ui| {
             ui.set_min_width(NAME_WIDTH);
             ui.label(RichText::new(name).weak());
         });
-        ui.add(Label::new(text.into()).truncate());
+        say(ui);
     });
 }
 
-fn place(facts: &EquationFacts, patch: u32) -> String {
-    format!("{}, patch {}", facts.name_of_patch(patch), format::count(patch.into()))
+fn text(ui: &mut Ui, text: impl Into<RichText>) {
+    ui.add(Label::new(text.into()).truncate());
 }
 
-/// Whether light gets through, in the colour that the way has in the viewport.
-fn sight(ui: &mut Ui, facts: &EquationFacts, name: &str, visibility: Visibility, [from, to]: [&str; 2]) {
+/// What a point lies on, and whether light gets there, in the colour that the way has in the viewport.
+fn point(ui: &mut Ui, facts: &EquationFacts, [name, delta]: [&str; 2], patch: u32, visibility: Visibility) {
     let palette = Palette::of(ui.visuals());
-    let color: Color32 = if visibility == Visibility::Free { palette.pass } else { palette.error };
-    let text = format!("{}. {}", visibility.factor(), facts.sentence(visibility, from, to));
-    fact(ui, name, RichText::new(text).color(color), "1 where light gets from one to the other, else 0");
+    let color = if visibility == Visibility::Free { palette.pass } else { palette.error };
+    fact(ui, name, "What it lies on, and whether light gets from there to the next point, 1, or not, 0", |ui| {
+        text(ui, format!("{}, patch {}", facts.name_of_patch(patch), format::count(patch.into())));
+        let sight = format!("{delta} = {}: {}", visibility.factor(), facts.between(visibility));
+        text(ui, RichText::new(sight).color(color));
+    });
 }
 
 fn geometry(ui: &mut Ui, source: &LightSource) {
     let [here, there] = source.cosines.map(format::figure);
-    let hover = "Between the normals of the surfaces and the way from one point to the other; 0 behind the horizon";
-    fact(ui, "cos θ', cos θ''", format!("{here}, {there}"), hover);
-    fact(ui, "r", format::si(source.distance, "m"), "From x' to x''");
-    let text = format!("cos θ' cos θ'' / r² = {}", format::figure(source.geometry()));
-    fact(ui, "G", format!("{text} 1/m²"), "The geometry term");
+    let distance = format::si(source.distance, "m");
+    let geometry = format::figure(source.geometry());
+    let hover = "The geometry term. The cosines are those between the normals and the way from x' to x'', r long; behind the \
+                 horizon they are 0.";
+    fact(ui, "G", hover, |ui| {
+        text(ui, format!("cos θ' = {here}, cos θ'' = {there}, r = {distance}, cos θ' cos θ'' / r² = {geometry} 1/m²"));
+    });
 }
 
 /// What the patches of both points exchange.
-fn exchange(ui: &mut Ui, facts: &EquationFacts, source: &LightSource, by: &str) {
-    let text = format!("{}, {by}", format::percent(source.form_factor));
-    fact(ui, "F", text, "The form factor from the patch of x' to the patch of x'', with what stands between them");
+fn exchange(ui: &mut Ui, facts: &EquationFacts, source: &LightSource, method: &str) {
+    let hover = "The form factor from the patch of x' to the patch of x'', with what stands between them, by the method of the \
+                 solver, and what that patch contributes to the radiosity of the patch of x'";
+    let form_factor = format::percent(source.form_factor);
     let light = format::rgb(source.contribution.as_vec3(), "W/m²");
-    let text = match facts.share(source.contribution) {
-        Some(share) => format!("{light}, {} of the radiosity", format::percent(share)),
-        None => light,
-    };
-    fact(ui, "ρ F B", text, "What the patch of x'' contributes to the radiosity of the patch of x'");
+    let share = facts.share(source.contribution).map(|share| format!(", {} of B", format::percent(share)));
+    fact(ui, "F", hover, |ui| {
+        text(ui, format!("{form_factor} ({method}), ρ F B = {light}{}", share.unwrap_or_default()));
+    });
 }
 
 /// What there is beside a diffuse surface.
 fn material(ui: &mut Ui, facts: &EquationFacts, source: &LightSource) {
     if source.gloss != Rgb64::ZERO {
         let [diffuse, gloss] = [source.diffuse, source.gloss].map(|part| format::rgb(part.as_vec3(), ""));
-        let hover = "Diffuse, ρ/π, and glossy. The radiosity solution has the diffuse part alone.";
-        fact(ui, "ρ(x, x'')", format!("diffuse {diffuse} + glossy {gloss} {PER_SR}"), hover);
+        fact(ui, "ρ", "Diffuse, ρ/π, and glossy. The radiosity solution has the diffuse part alone.", |ui| {
+            text(ui, format!("diffuse {diffuse} + glossy {gloss} {PER_SR}"));
+        });
     }
     if facts.is_sharp() {
-        let text = "The part of a mirror or of glass is left out: it has no number for one direction.";
-        fact(ui, "", RichText::new(text).weak(), "");
+        let note = "The part of a mirror or of glass is left out: it has no number for one direction.";
+        fact(ui, "", "", |ui| text(ui, RichText::new(note).weak()));
     }
 }
