@@ -9,12 +9,13 @@ use crate::app::theme::UNIT;
 use crate::math::rgb::Rgb64;
 use egui::{Align, Button, Color32, Label, Layout, RichText, Ui, vec2};
 
-/// Of all of it, beside the equation.
+/// Of a list of them, beside the equation.
 pub const WIDTH: f32 = 84.0 * UNIT;
 /// Of a share.
 const SHARE_WIDTH: f32 = 15.0 * UNIT;
 
-pub fn show(ui: &mut Ui, facts: &EquationFacts, actions: &mut Vec<Action>) {
+/// The radiosity, and of what the patch makes and others send the largest parts.
+pub fn largest(ui: &mut Ui, facts: &EquationFacts, actions: &mut Vec<Action>) {
     let balance = &facts.equation.balance;
     let title = format!("Radiosity B of patch {}", format::count(balance.patch.into()));
     figure_row(ui, "M + ρ E, the mean over the patch, and which share of it comes from where", |ui| {
@@ -37,6 +38,11 @@ pub fn show(ui: &mut Ui, facts: &EquationFacts, actions: &mut Vec<Action>) {
             }
         });
     }
+}
+
+/// What is left, and that it is all.
+pub fn rest(ui: &mut Ui, facts: &EquationFacts) {
+    let balance = &facts.equation.balance;
     if balance.other_count > 0 {
         let others = format::counted(balance.other_count as u64, "other patch");
         part(ui, facts, &others, balance.others, "ρ Σ F B over all other patches");

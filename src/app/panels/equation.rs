@@ -14,7 +14,7 @@ use crate::math::rgb::Rgb64;
 use crate::solution::{LightSource, Visibility};
 use egui::{Grid, Label, RichText, ScrollArea, Ui, vec2};
 
-/// Of the equation, and between it and the contributors beside it. Where there is less room, they stand below it.
+/// Of the equation, and between it and the lists of contributors beside it. Where there is less room, they stand below it.
 const WIDTH: f32 = 140.0 * UNIT;
 const GAP: f32 = 6.0 * UNIT;
 /// Of the names of figures.
@@ -40,24 +40,35 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         let Some(facts) = model.equation else { return };
         ui.spacing_mut().item_spacing.y = 0.0;
-        let width = ui.available_width();
-        if width < WIDTH + GAP + contributors::WIDTH {
+        let lists = ((ui.available_width() - WIDTH) / (GAP + contributors::WIDTH)).floor();
+        if lists < 1.0 {
             equation(ui, model, &facts);
             ui.add_space(2.0 * UNIT);
-            contributors::show(ui, &facts, actions);
+            contributors::largest(ui, &facts, actions);
+            contributors::rest(ui, &facts);
             return;
         }
         ui.horizontal_top(|ui| {
-            ui.vertical(|ui| {
-                ui.set_width(WIDTH);
-                equation(ui, model, &facts);
+            ui.spacing_mut().item_spacing.x = GAP;
+            column(ui, WIDTH, |ui| equation(ui, model, &facts));
+            column(ui, contributors::WIDTH, |ui| {
+                contributors::largest(ui, &facts, actions);
+                if lists < 2.0 {
+                    contributors::rest(ui, &facts);
+                }
             });
-            ui.add_space(GAP);
-            ui.vertical(|ui| {
-                ui.set_width(contributors::WIDTH);
-                contributors::show(ui, &facts, actions);
-            });
+            if lists >= 2.0 {
+                column(ui, contributors::WIDTH, |ui| contributors::rest(ui, &facts));
+            }
         });
+    });
+}
+
+fn column(ui: &mut Ui, width: f32, contents: impl FnOnce(&mut Ui)) {
+    ui.vertical(|ui| {
+        ui.spacing_mut().item_spacing.x = 2.0 * UNIT;
+        ui.set_width(width);
+        contents(ui);
     });
 }
 
