@@ -4,6 +4,7 @@ use super::quads::Quads;
 use super::{furnace, world_of};
 use glam::{DVec3, Vec3};
 use lightwell::cancel::Cancel;
+use lightwell::effects::{Effect, Effects, Switches};
 use lightwell::math::polygon::parallel_rectangles;
 use lightwell::math::rgb::{Rgb64, total};
 use lightwell::mesh::MeshSettings;
@@ -136,6 +137,23 @@ fn parts_add_up_to_the_radiosity_shown_at_every_moment() {
             let tolerance = 1e-5 * total(balance.emission + balance.gathered());
             assert!(total(balance.difference.abs()) < tolerance, "{what}");
             assert!(total(balance.unshot) > 1e-3 * total(balance.gathered()), "{what}");
+        }
+    }
+}
+
+#[test]
+fn only_what_is_simulated_contributes() {
+    let world = world_of(Scene::open("cornell-box").expect("a built-in scene"), &mesh(0.1));
+    for effect in [Effect::Interreflection, Effect::Colour] {
+        let effects = Switches { off: Effects::of(&[effect]), ..Switches::default() };
+        let settings = Settings { solver: Solver::GaussSeidel, effects, ..Settings::default() };
+        let balance = balance(&world, &settings, &solved(&world, &settings, 1000), 0);
+        assert!(total(balance.difference.abs()) < 1e-5 * total(balance.gathered()), "{effect:?}: {balance:?}");
+        let material = |patch: u32| &world.scene.materials[world.mesh.patches[patch as usize].material as usize];
+        let mut senders = balance.largest.iter().map(|contribution| material(contribution.patch));
+        match effect {
+            Effect::Interreflection => assert!(balance.other_count == 0 && senders.all(|from| from.is_emitter())),
+            _ => assert!(is_grey(balance.radiosity, balance.radiosity.x, 1e-6), "{}", balance.radiosity),
         }
     }
 }

@@ -113,7 +113,8 @@ fn contributors_are_listed_with_shares_that_sum_to_all() {
     let equation = equation();
     let balance = &equation.balance;
     let harness = opened(Some(equation.clone())).window(LARGE);
-    harness.get_by_label("Radiosity B of patch 0");
+    let radiosity = format::rgb(balance.radiosity.as_vec3(), "W/m²");
+    assert!(harness.query_all_by_label(&radiosity).next().is_some(), "{radiosity}");
     let share = |part: Rgb64| total(part) / total(balance.radiosity);
     for part in balance.largest.iter().map(|contribution| contribution.light).chain([balance.others, -balance.unshot]) {
         assert!(harness.query_all_by_label(&format::percent(share(part))).next().is_some(), "{part}");

@@ -17,9 +17,8 @@ const SHARE_WIDTH: f32 = 15.0 * UNIT;
 /// The radiosity, and of what the patch makes and others send the largest parts.
 pub fn largest(ui: &mut Ui, facts: &EquationFacts, actions: &mut Vec<Action>) {
     let balance = &facts.equation.balance;
-    let title = format!("Radiosity B of patch {}", format::count(balance.patch.into()));
-    figure_row(ui, "M + ρ E, the mean over the patch, and which share of it comes from where", |ui| {
-        ui.label(RichText::new(title).strong());
+    figure_row(ui, "M + ρ E, the mean over the patch of x', and which share of it comes from where", |ui| {
+        ui.label(RichText::new("Radiosity B").strong());
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| ui.label(watts_per_area(balance.radiosity)));
     });
     if balance.emission != Rgb64::ZERO {

@@ -19,12 +19,16 @@ pub struct PickedLight<'a> {
     pub(super) solution: &'a Solution,
     picked: &'a Picked,
     pub(super) effects: Effects,
+    /// ρ of the picked patch.
+    pub(super) reflectance: Rgb64,
 }
 
 impl<'a> PickedLight<'a> {
     /// All of one world; the solution was made with these settings.
     pub fn new(world: &'a World, settings: &Settings, solution: &'a Solution, picked: &'a Picked) -> Self {
-        Self { world, solution, picked, effects: simulated(world, settings) }
+        let effects = simulated(world, settings);
+        let reflectance = reflectance(world, &world.mesh.patches[picked.patch as usize], effects);
+        Self { world, solution, picked, effects, reflectance }
     }
 
     /// Gathers ρ F B from all patches; `None` if cancelled.
@@ -37,7 +41,7 @@ impl<'a> PickedLight<'a> {
                 return None;
             }
             let light = self.contribution(other, form_factor);
-            unshot += self.reflectance() * form_factor * self.unshot(other);
+            unshot += self.reflectance * form_factor * self.unshot(other);
             if light != Rgb64::ZERO {
                 contributions.push(Contribution { patch: other, form_factor, light });
             }
@@ -65,11 +69,6 @@ impl<'a> PickedLight<'a> {
         &self.world.mesh.patches[self.picked.patch as usize]
     }
 
-    /// ρ of the picked patch.
-    pub(super) fn reflectance(&self) -> Rgb64 {
-        reflectance(self.world, self.patch(), self.effects)
-    }
-
     /// M_e of a patch, W/m².
     pub(super) fn exitance(&self, patch: &Patch) -> Rgb64 {
         exitance(self.world, patch, self.effects)
@@ -91,7 +90,7 @@ impl<'a> PickedLight<'a> {
         let patch = &self.world.mesh.patches[other as usize];
         let reflects = self.effects.contains(Effect::Interreflection);
         let sent = if reflects { self.radiosity(patch) } else { self.exitance(patch) };
-        self.reflectance() * form_factor * sent
+        self.reflectance * form_factor * sent
     }
 
     /// The form factors from the picked patch that are not 0.

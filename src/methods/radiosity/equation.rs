@@ -33,7 +33,7 @@ impl PickedLight<'_> {
             point: points.point,
             sight: seen_by_eye(self.world, points.eye, points.point, patch),
             emitted: self.exitance(patch) / PI,
-            reflected: self.reflectance() * irradiance / PI,
+            reflected: self.reflectance * irradiance / PI,
             source: points.source.map(|(point, other)| self.light_source(points, point, other)),
             balance,
         }
@@ -55,7 +55,7 @@ impl PickedLight<'_> {
                 let lifted = |point: Vec3, patch: &Patch| self.world.tracer.lift(point.into(), patch.normal);
                 first_between(self.world, lifted(points.point, here), lifted(source, there), |_| true)
             },
-            diffuse: self.reflectance() / PI,
+            diffuse: self.reflectance / PI,
             gloss: colour(gloss(self.world, here, points, way), self.effects).as_dvec3(),
             sent: self.solution.light.radiosity[element].as_dvec3() / PI,
             cosines,
