@@ -19,6 +19,7 @@ pub mod mesh;
 pub mod methods;
 pub mod scene;
 pub mod solution;
+pub mod study;
 pub mod tracer;
 pub mod viewport;
 pub mod worker;

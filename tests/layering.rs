@@ -17,7 +17,7 @@ const LAYERS: [&[&str]; 8] = [
     &["camera", "effects", "solution"],
     &["methods"],
     &["accuracy", "hard_cases"],
-    &["worker"],
+    &["worker", "study"],
     &["viewport"],
     &["cli", "app", "main", "lib"],
 ];
@@ -28,8 +28,14 @@ const PICTURE: usize = 6;
 const HIDDEN_FROM_THE_PICTURE: RangeInclusive<usize> = 3..=5;
 
 /// The order inside a layer, where there is one: the first never names the second.
-const NEVER: [(&str, &str); 5] =
-    [("scene", "mesh"), ("scene", "tracer"), ("scene", "world"), ("mesh", "world"), ("camera", "solution")];
+const NEVER: [(&str, &str); 6] = [
+    ("scene", "mesh"),
+    ("scene", "tracer"),
+    ("scene", "world"),
+    ("mesh", "world"),
+    ("camera", "solution"),
+    ("worker", "study"),
+];
 
 const ANYWHERE: &[&str] = &[""];
 
@@ -44,7 +50,8 @@ const CRATES: &[(&str, &[&str])] = &[
     ("rayon", &["mesh", "tracer", "world", "methods", "accuracy", "worker"]),
     ("thread_priority", &["worker"]),
     ("sysinfo", &["worker"]),
-    ("kiddo", &["methods"]),
+    ("dirs", &["accuracy"]),
+    ("dirs", &["accuracy"]),
     ("regex", &["solution"]),
     // The picture.
     ("wgpu", &["viewport", "app"]),
@@ -55,7 +62,7 @@ const CRATES: &[(&str, &[&str])] = &[
     ("image", &["cli", "main"]),
     ("png", &["cli", "main"]),
     ("plotters", &["cli", "main"]),
-    ("serde_json", &["cli", "main", "app"]),
+    ("serde_json", &["study", "cli", "main", "app"]),
     ("env_logger", &["cli", "main"]),
     ("egui", &["app"]),
     ("eframe", &["app"]),

@@ -77,7 +77,7 @@ fn the_window_shows_the_light_of_a_scene() {
         return;
     }
     let builder = Harness::builder().with_size(SMALL).wgpu();
-    let mut harness = builder.build_eframe(|context| Explorer::new(context, "furnace".to_owned()).unwrap());
+    let mut harness = builder.build_eframe(|context| Explorer::new(context, "furnace".to_owned(), None).unwrap());
     // The start page, which is shown until the scene comes, has its name, too.
     wait_for(&mut harness, &thin("Progress: 100.0_% unshot"));
     harness.get_by_label("furnace");

@@ -1,5 +1,15 @@
 //! Where solutions are held against the truth.
 
+mod cache;
+mod error;
+mod found;
+mod front;
 mod points;
+mod reference;
 
+pub use cache::{Cache, CacheError, Key};
+pub use error::Error;
+pub use found::{Found, by_photons, by_radiosity};
+pub use front::{Offer, front, slope};
 pub use points::{ProbePoint, spread};
+pub use reference::{Reference, Truth};

@@ -15,6 +15,7 @@ use super::preferences::Preferences;
 use super::theme;
 use super::viewport_pane::ViewportPane;
 use super::views::{self, ViewGroup};
+use crate::accuracy::Cache;
 use crate::cli::picture::{self, Format};
 use crate::hard_cases::cases;
 use crate::methods::Settings;
@@ -56,11 +57,12 @@ pub struct Explorer {
 }
 
 impl Explorer {
-    /// Starts the solver thread and opens `scene`, a path or the name of a built-in one.
+    /// Starts the solver thread and opens `scene`, a path or the name of a built-in one. What is found out about scenes is
+    /// kept in the cache, if there is one.
     ///
     /// # Errors
     /// If eframe gives no graphics device.
-    pub fn new(context: &eframe::CreationContext, scene: String) -> Result<Self, &'static str> {
+    pub fn new(context: &eframe::CreationContext, scene: String, cache: Option<Cache>) -> Result<Self, &'static str> {
         let render_state = context.wgpu_render_state.clone().ok_or("the window has no graphics device")?;
         let ctx = &context.egui_ctx;
         let preferences: Preferences =
@@ -70,7 +72,7 @@ impl Explorer {
         let pane = ViewportPane::new(render_state);
         let waker = ctx.clone();
         let pace = if pane.gpu().is_software() { SOFTWARE_PACE } else { Duration::ZERO };
-        let worker = Worker::spawn(move || waker.request_repaint_after(pace));
+        let worker = Worker::spawn(cache, move || waker.request_repaint_after(pace));
         worker.send(Command::Load(scene));
         Ok(Self {
             snapshot: worker.latest(),

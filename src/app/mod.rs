@@ -26,6 +26,7 @@ pub mod views;
 
 pub use explorer::Explorer;
 
+use crate::accuracy::Cache;
 use crate::viewport::{AdapterChoice, GpuError, adapter_selector, device_descriptor};
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuError, WgpuSetup, WgpuSetupCreateNew};
 use eframe::wgpu;
@@ -72,8 +73,12 @@ pub fn run(options: Options) -> Result<(), AppError> {
         wgpu_options: wgpu_configuration(options.adapter),
         ..eframe::NativeOptions::default()
     };
-    eframe::run_native("lightwell", native, Box::new(|context| Ok(Box::new(Explorer::new(context, scene)?))))
-        .map_err(app_error)
+    eframe::run_native(
+        "lightwell",
+        native,
+        Box::new(|context| Ok(Box::new(Explorer::new(context, scene, Cache::of_user())?))),
+    )
+    .map_err(app_error)
 }
 
 fn wgpu_configuration(adapter: AdapterChoice) -> WgpuConfiguration {

@@ -1,5 +1,6 @@
 //! The command line: the same code as the window, without one. One file a command.
 
+mod budget;
 mod camera_options;
 mod check;
 mod effect_options;
@@ -7,6 +8,7 @@ mod facts;
 mod form_factor;
 mod image_options;
 mod inspect;
+mod judge;
 mod occlusion_options;
 mod photon_options;
 pub mod picture;
@@ -17,6 +19,7 @@ mod run_options;
 mod scenes;
 mod series;
 mod solve;
+mod study;
 mod tracing;
 mod values;
 
@@ -59,6 +62,8 @@ pub enum Command {
     Solve(solve::Options),
     /// Solve a scene and print the irradiance, or the share of ambient light, at points
     Probe(probe::Options),
+    /// Try ways to compute light on a scene, and write what accuracy costs in time: a table, a chart and a report
+    Study(study::Options),
     /// Compute the form factor between two polygons by every method
     #[command(name = "formfactor")]
     FormFactor(form_factor::Options),
@@ -81,6 +86,7 @@ impl Command {
             Self::Series(options) => series::run(options),
             Self::Solve(options) => solve::run(options),
             Self::Probe(options) => probe::run(options),
+            Self::Study(options) => study::run(options),
             Self::FormFactor(options) => form_factor::run(options),
             Self::Inspect(options) => inspect::run(options),
             Self::Plan(options) => plan::run(options),
@@ -119,6 +125,8 @@ pub enum CliError {
     NothingPicked { at: [f32; 2] },
     #[error("only {kept} bounces of light were kept, and the light of the emitters")]
     NoSuchBounce { kept: usize },
+    #[error("no light was found in the scene within the budget")]
+    NothingFound,
     #[error("there is nothing to draw: {0}")]
     Missing(&'static str),
     #[error("no surface is at {},{},{}, seen from where its normal points, and {reason}", .point[0], .point[1], .point[2])]

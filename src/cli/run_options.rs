@@ -56,9 +56,13 @@ pub struct RunOptions {
     /// Stop after this many shots or sweeps
     #[arg(long, value_name = "N", group = "stop")]
     steps: Option<u64>,
-    /// Stop after this much solver time; a picture from a camera gets its first sample even if that takes longer
+    /// Stop after this much solver time; a picture from a camera gets its first sample even if that takes longer. Where no
+    /// method is asked for, it is chosen, with its settings, to be as accurate as can be within this time in all
     #[arg(long, value_name = "SECONDS", group = "stop", value_parser = values::positive)]
     time: Option<f64>,
+    /// Choose the method and its settings: the cheapest whose error is at most this share of the mean irradiance
+    #[arg(long, value_name = "PERCENT", conflicts_with_all = ["steps", "converge"], value_parser = values::percent)]
+    error: Option<f64>,
     /// Stop when at most this share of the emitted flux is unshot [default: 0.1]
     #[arg(long, value_name = "PERCENT", group = "stop", value_parser = values::percent)]
     converge: Option<f64>,
@@ -116,6 +120,17 @@ impl RunOptions {
         }
     }
 
+    /// The largest error that is allowed, as a share, where the method is to be chosen by it.
+    pub fn error(&self) -> Option<f64> {
+        self.error.map(|percent| percent / 100.0)
+    }
+
+    /// Whether nothing is said of how light is computed.
+    pub fn is_plain(&self) -> bool {
+        let Settings { seed, effects, unshot_limit, .. } = self.settings();
+        self.settings() == Settings { seed, effects, unshot_limit, ..Settings::default() } && self.light_rays.is_none()
+    }
+
     /// The solver time after which a run ends.
     pub fn time(&self) -> Option<Duration> {
         // More seconds than a duration holds are no limit.
@@ -137,11 +152,6 @@ impl RunOptions {
     /// Opens the scene and prepares it.
     pub fn open(&self) -> Result<Arc<World>, CliError> {
         self.scene.open(self.patch_edge)
-    }
-
-    /// Opens the scene and runs radiosity until it should stop.
-    pub fn solve(&self) -> Result<Solved, CliError> {
-        self.solve_in(self.open()?, self.settings())
     }
 
     /// Runs radiosity in the opened scene until it should stop.

@@ -1,5 +1,7 @@
 //! `lightwell solve`: where the light went.
 
+use super::budget::Budget;
+use super::judge::Judge;
 use super::photon_options::{LightMethod, PhotonOptions};
 use super::run_options::{RunOptions, Solved};
 use super::tracing::{Tracing, photon_report};
@@ -7,7 +9,8 @@ use super::{CliError, effect_options, refuse};
 use crate::choice::{Choice, parse};
 use crate::math::rgb::total;
 use crate::methods::Settings;
-use crate::solution::PhotonSolution;
+use crate::solution::{PhotonSolution, Solution};
+use crate::study::Light;
 use crate::worker::Subject;
 use crate::world::World;
 use serde_json::{Value, json};
@@ -17,29 +20,29 @@ use std::io::Write;
 pub struct Options {
     #[command(flatten)]
     run: RunOptions,
-    /// How light is computed: radiosity or photon-map
-    #[arg(long, value_name = "METHOD", default_value = LightMethod::default().name(), value_parser = parse::<LightMethod>)]
-    method: LightMethod,
+    /// How light is computed: radiosity or photon-map [default: radiosity, or what --error or --time lead to]
+    #[arg(long, value_name = "METHOD", value_parser = parse::<LightMethod>)]
+    method: Option<LightMethod>,
     #[command(flatten)]
     photons: PhotonOptions,
+    /// Measure how far the light is off at points spread over all surfaces, against a path-traced reference that is kept
+    /// for the next time
+    #[arg(long)]
+    accuracy: bool,
     /// Print one JSON object and nothing else
     #[arg(long)]
     json: bool,
 }
 
 pub fn run(options: &Options) -> Result<(), CliError> {
-    check_method(options.method, &options.run, &options.photons);
-    let (report, text) = match options.method {
-        LightMethod::Radiosity => {
-            let solved = options.run.solve()?;
-            (report(&solved), text(&solved))
+    let (report, text) = match Budget::of(&options.run, options.method.map(LightMethod::name)) {
+        Some(budget) => {
+            if let Some(option) = options.photons.given() {
+                refuse(&format!("{option} says how light is computed: --method photon-map goes with it"));
+            }
+            solve_within(&budget, &options.run)?
         }
-        LightMethod::PhotonMap => {
-            let settings = Settings { photons: options.photons.settings(), ..options.run.settings() };
-            let mut tracing = Tracing::new(options.run.open()?, settings, options.run.time());
-            let photons = tracing.trace(|_| ())?;
-            (photon_report(&tracing.world, &settings, &photons), photon_text(&tracing.world, &photons))
-        }
+        None => solve_by(options)?,
     };
     let mut out = std::io::stdout().lock();
     if options.json {
@@ -48,6 +51,51 @@ pub fn run(options: &Options) -> Result<(), CliError> {
         write!(out, "{text}")?;
     }
     Ok(())
+}
+
+/// By the method and the settings that a budget leads to.
+fn solve_within(budget: &Budget, run: &RunOptions) -> Result<(Value, String), CliError> {
+    let found = budget.seek(run)?;
+    let (mut told, mut words) = match &found.light {
+        Light::Radiosity(world, solution) => {
+            let solved = Solved { world: world.clone(), settings: found.settings, solution: Solution::clone(solution) };
+            (report(&solved), text(&solved))
+        }
+        Light::Photons(world, photons) => (photon_report(world, &found.settings, photons), photon_text(world, photons)),
+    };
+    found.add_to(&mut told);
+    words += &found.text();
+    Ok((told, words))
+}
+
+/// By the method that is asked for.
+fn solve_by(options: &Options) -> Result<(Value, String), CliError> {
+    let method = options.method.unwrap_or_default();
+    check_method(method, &options.run, &options.photons);
+    let world = options.run.open()?;
+    let mut judge = options.accuracy.then(|| Judge::new(world.clone()));
+    let (mut report, mut text, found) = match method {
+        LightMethod::Radiosity => {
+            let solved = options.run.solve_in(world, options.run.settings())?;
+            let found = judge.as_ref().map(|judge| judge.found_by_radiosity(&solved));
+            (report(&solved), text(&solved), found)
+        }
+        LightMethod::PhotonMap => {
+            let settings = Settings { photons: options.photons.settings(), ..options.run.settings() };
+            let mut tracing = Tracing::new(world, settings, options.run.time());
+            let (photons, found) = match &judge {
+                Some(judge) => judge.found_by_photons(&mut tracing).map(|(photons, found)| (photons, Some(found)))?,
+                None => (tracing.trace(|_| ())?, None),
+            };
+            (photon_report(&tracing.world, &settings, &photons), photon_text(&tracing.world, &photons), found)
+        }
+    };
+    if let (Some(judge), Some(found)) = (&mut judge, &found) {
+        let verdict = judge.verdict(found);
+        report["accuracy"] = verdict.json();
+        text += &verdict.text();
+    }
+    Ok((report, text))
 }
 
 /// Ends the program, as any other wrong command line does, where an option is about another method.

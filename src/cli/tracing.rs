@@ -4,9 +4,10 @@ use super::{CliError, effect_options};
 use crate::cancel::Cancel;
 use crate::math::rgb::total;
 use crate::methods::ambient_occlusion::VertexOcclusion;
-use crate::methods::transport::Transport;
+use crate::methods::image::{Meters, Sources};
+use crate::methods::transport::{Surface, Transport};
 use crate::methods::{ImageSettings, Settings, Step};
-use crate::solution::{CameraImage, PhotonSolution, Solution, VertexShares};
+use crate::solution::{CameraImage, CameraView, PhotonSolution, Solution, VertexShares};
 use crate::worker::{CameraShot, Lights, Methods, PhotonRun, Subject, TracedPhotons, Workshop};
 use crate::world::World;
 use serde_json::{Map, Value, json};
@@ -76,6 +77,20 @@ impl Tracing {
         let has_time = |rounds: u32| rounds == 0 || start.elapsed() < self.time;
         while has_time(method.rounds()) && method.step(&Cancel::default()) == Step::Advanced {}
         VertexShares { elapsed: start.elapsed(), ..method.solution() }
+    }
+
+    /// Light meters at surfaces, which read what a view shows of the light that there is.
+    pub fn meters(
+        &mut self,
+        view: CameraView,
+        radiosity: Option<Arc<Solution>>,
+        surfaces: impl FnOnce(&Transport) -> Result<Vec<Surface>, CliError>,
+    ) -> Result<Meters, CliError> {
+        let photons = if view.needs_photons() { Some(self.photons()?.method().maps()) } else { None };
+        let transport = Arc::new(Transport::new(self.world.clone(), self.settings.effects));
+        let surfaces = surfaces(&transport)?;
+        let sources = Sources { transport, radiosity, photons };
+        Ok(Meters::new(&sources, view, surfaces, &self.settings).expect("the light of the view is there"))
     }
 
     /// A picture from a camera: of `samples` a pixel, or as many as the time allows, but one at least. With progressive

@@ -2,12 +2,8 @@
 
 use super::Solution;
 use crate::math::rgb::Rgb;
-use crate::tracer::Ray;
 use crate::world::{World, is_covered};
 use glam::Vec3A;
-
-/// A point lies on a surface that is nearer than this share of the scene's radius.
-const ON_SURFACE: f32 = 1e-3;
 
 /// A solution made ready to be asked at many points.
 pub struct SurfaceProbe<'a> {
@@ -26,11 +22,7 @@ impl<'a> SurfaceProbe<'a> {
     /// Irradiance E, W/m², at a point on a surface whose lit side faces along the unit `normal`, interpolated between the
     /// vertices of its element, and 0 where something stands on the surface; `None` where no such surface is.
     pub fn irradiance(&self, point: Vec3A, normal: Vec3A) -> Option<Rgb> {
-        let reach = ON_SURFACE * self.world.bounds.radius();
-        let hit = self.world.tracer.closest(&Ray { origin: point + reach * normal, direction: -normal })?;
-        if hit.distance > 2.0 * reach {
-            return None;
-        }
+        let (_, hit) = self.world.meet_at(point, normal)?;
         if is_covered(&self.world.mesh, &self.world.tracer, self.world.tracer.lift(point, normal), normal) {
             return Some(Rgb::ZERO);
         }

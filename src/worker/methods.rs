@@ -3,11 +3,12 @@
 use super::Refused;
 use super::run::{check_photons, start_method};
 use super::workshop::{CameraShot, ImageMethod, Lights, OcclusionMethod, PhotonMethod, PhotonProgress, Workshop};
+use crate::accuracy::{Cache, Found, ProbePoint, Reference, by_photons};
 use crate::cancel::Cancel;
 use crate::effects::Switches;
 use crate::methods::ambient_occlusion::VertexOcclusion;
 use crate::methods::image::{ImageRun, Sources};
-use crate::methods::photon_map::{PhotonMapping, PhotonMaps};
+use crate::methods::photon_map::{PhotonMapping, PhotonMaps, ProgressivePoints, Which};
 use crate::methods::transport::{Surface, Transport};
 use crate::methods::{Method, Settings, Step};
 use crate::solution::{CameraImage, Gathered, Photon, PhotonSolution, PhotonTrail, VertexShares};
@@ -20,9 +21,15 @@ use std::sync::{Arc, Weak};
 pub struct Methods {
     /// Shared by all that trace rays through a world, for as long as one of them does.
     transport: Weak<Transport>,
+    cache: Option<Cache>,
 }
 
 impl Methods {
+    /// Those that keep in this cache what they find out about scenes.
+    pub fn with_cache(cache: Option<Cache>) -> Self {
+        Self { cache, ..Self::default() }
+    }
+
     fn transport(&mut self, world: &Arc<World>, switches: Switches) -> Arc<Transport> {
         let known = self.transport.upgrade().filter(|transport| {
             Arc::ptr_eq(&transport.world, world) && transport.effects == switches.simulated_in(world)
@@ -59,6 +66,14 @@ impl Workshop for Methods {
         Box::new(VertexOcclusion::new(self.transport(world, settings.effects), settings))
     }
 
+    fn reference(&mut self, world: &Arc<World>) -> Option<(Reference, Option<Cache>)> {
+        let reference = match &self.cache {
+            Some(cache) => Reference::from_cache(world.clone(), cache),
+            None => Reference::new(world.clone()),
+        };
+        Some((reference, self.cache.clone()))
+    }
+
     fn image(&mut self, lights: Lights<'_, TracedPhotons>, shot: &CameraShot, settings: &Settings) -> ImageRun {
         let CameraShot { view, camera, size } = *shot;
         ImageRun::new(&self.sources(lights, settings.effects), view, camera, size, settings)
@@ -75,6 +90,8 @@ impl Workshop for Methods {
 pub struct TracedPhotons {
     mapping: PhotonMapping,
     transport: Arc<Transport>,
+    /// Of progressive photons, at the points where they are measured.
+    means: Option<ProgressivePoints>,
 }
 
 impl TracedPhotons {
@@ -84,7 +101,7 @@ impl TracedPhotons {
     /// If it needs more memory than there is.
     pub fn start(transport: Arc<Transport>, settings: &Settings) -> Result<Self, Refused> {
         check_photons(&transport, &settings.photons)?;
-        Ok(Self { mapping: PhotonMapping::new(transport.clone(), settings), transport })
+        Ok(Self { mapping: PhotonMapping::new(transport.clone(), settings), transport, means: None })
     }
 
     /// The photons that are there, in trees.
@@ -104,7 +121,12 @@ impl PhotonMethod for TracedPhotons {
     }
 
     fn configure(&mut self, settings: &Settings) -> bool {
-        self.mapping.configure(settings)
+        let kernel = self.mapping.settings().photons.kernel;
+        let goes_on = self.mapping.configure(settings);
+        if goes_on && settings.photons.kernel != kernel {
+            self.means = None;
+        }
+        goes_on
     }
 
     fn progress(&self) -> PhotonProgress {
@@ -117,6 +139,22 @@ impl PhotonMethod for TracedPhotons {
 
     fn solution(&mut self) -> PhotonSolution {
         self.mapping.solution()
+    }
+
+    fn irradiance(&mut self, points: &[ProbePoint]) -> Found {
+        match &self.means {
+            Some(means) => Found::of_samples(means.irradiance()),
+            None => by_photons(&self.mapping.maps(), points),
+        }
+    }
+
+    fn count_pass(&mut self, points: &[ProbePoint]) {
+        let transport = &self.transport;
+        let means = self.means.get_or_insert_with(|| {
+            let surface = |at: &ProbePoint| transport.surface_at(at.point, at.normal);
+            ProgressivePoints::new(points.iter().filter_map(surface).collect())
+        });
+        means.add(&self.mapping.maps(), Which::All);
     }
 
     fn trail(&mut self, photon: &Photon) -> Option<PhotonTrail> {

@@ -8,12 +8,14 @@ mod checks;
 mod command;
 mod going;
 mod history;
+mod judge;
 mod mailbox;
 mod methods;
 mod pool;
 mod ray_price;
 mod run;
 mod solver;
+mod track;
 mod workshop;
 
 pub use account::Entry;
@@ -22,8 +24,10 @@ pub use command::{Command, LightKind, Place, Shown, Sight, Spot, Subject};
 pub use history::{Curve, CurvePoint};
 pub use methods::{Methods, TracedPhotons};
 pub use run::{PhotonRun, Refused, Run};
+pub use track::{Track, TrackPoint};
 pub use workshop::{CameraShot, ImageMethod, Lights, OcclusionMethod, PhotonMethod, PhotonProgress, Workshop};
 
+use crate::accuracy::{Cache, Truth};
 use crate::effects::Plan;
 use crate::methods::Settings;
 use crate::solution::{CameraImage, Equation, Gathered, PhotonSolution, PhotonTrail, Picked, Solution, VertexShares};
@@ -60,6 +64,10 @@ pub struct Snapshot {
     pub gathered: Option<Arc<Gathered>>,
     /// How the runs on this scene went, the one under way last.
     pub curves: Vec<Arc<Curve>>,
+    /// How far off the runs on this scene were, in the order in which they began.
+    pub tracks: Vec<Arc<Track>>,
+    /// What they are held against, as far as it is known.
+    pub truth: Option<Arc<Truth>>,
     /// The settings that `world` and `solution` were made with.
     pub settings: Settings,
     /// The last thing that went wrong, until the next command succeeds. The world and the solution of before stay.
@@ -108,9 +116,10 @@ impl Slot {
 }
 
 impl Worker {
-    /// Starts the thread. `wake` is called from it after every new snapshot.
-    pub fn spawn(wake: impl Fn() + Send + Sync + 'static) -> Self {
-        Self::spawn_with(Methods::default(), wake)
+    /// Starts the thread. `wake` is called from it after every new snapshot. What is found out about scenes is kept in the
+    /// cache, if there is one.
+    pub fn spawn(cache: Option<Cache>, wake: impl Fn() + Send + Sync + 'static) -> Self {
+        Self::spawn_with(Methods::with_cache(cache), wake)
     }
 
     /// The same with methods from elsewhere.

@@ -2,6 +2,7 @@
 //! few calls.
 
 use super::Refused;
+use crate::accuracy::{Cache, Found, ProbePoint, Reference};
 use crate::camera::Camera;
 use crate::cancel::Cancel;
 use crate::methods::{Method, Settings, Step};
@@ -29,6 +30,9 @@ pub trait Workshop: Send + 'static {
 
     /// Ambient occlusion on the mesh before its first step.
     fn occlusion(&mut self, world: &Arc<World>, settings: &Settings) -> Box<dyn OcclusionMethod>;
+
+    /// The truth about a world, and where it is kept for the next time; `None` where nothing is to be held against it.
+    fn reference(&mut self, world: &Arc<World>) -> Option<(Reference, Option<Cache>)>;
 
     /// A picture before its first step. The light that its view needs is there.
     fn image(&mut self, lights: Lights<'_, Self::Photons>, shot: &CameraShot, settings: &Settings) -> Self::Image;
@@ -77,6 +81,12 @@ pub trait PhotonMethod: Send {
 
     /// Copies out what is known so far. Its `elapsed` is zero: whoever steps the method holds the clock.
     fn solution(&mut self) -> PhotonSolution;
+
+    /// What is known of E at points; of progressive photons the mean over the passes that were counted.
+    fn irradiance(&mut self, points: &[ProbePoint]) -> Found;
+
+    /// Counts a pass of progressive photons, whose photons are all there, in the mean at these points.
+    fn count_pass(&mut self, points: &[ProbePoint]);
 
     /// The whole way of a photon of the present pass.
     fn trail(&mut self, photon: &Photon) -> Option<PhotonTrail>;

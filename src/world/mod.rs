@@ -19,13 +19,17 @@ use crate::cancel::{Cancel, Cancelled};
 use crate::math::bounds::Bounds;
 use crate::mesh::{Mesh, MeshSettings, element_size_for, estimated_elements, subdivide};
 use crate::scene::{Finding, Scene, Viewpoint};
-use crate::tracer::Tracer;
+use crate::tracer::{Hit, Ray, Tracer};
+use glam::Vec3A;
 use sides::Reach;
 use std::sync::Arc;
 use surface::Surfaces;
 
 /// Surfaces that are nearer to each other than this share of the scene's radius touch: no light gets between them.
 const TOUCHING: f32 = 4e-4;
+
+/// A point lies on a surface that is nearer than this share of the scene's radius.
+const ON_SURFACE: f32 = 1e-3;
 
 /// Where an automatic mesh must be finer than usual, because the scene has many polygons.
 const ELEMENTS_PER_POLYGON: f64 = 4.0;
@@ -127,6 +131,15 @@ impl World {
     /// Whether no light can leave: not one of the rays that explored the scene did.
     pub fn is_closed(&self) -> bool {
         self.escape_share == 0.0
+    }
+
+    /// Where a ray towards a point of a surface, against the unit `normal` of the side that is meant, meets that surface;
+    /// `None` where there is none. The ray that met it comes with it.
+    pub fn meet_at(&self, point: Vec3A, normal: Vec3A) -> Option<(Ray, Hit)> {
+        let reach = ON_SURFACE * self.bounds.radius();
+        let ray = Ray { origin: point + reach * normal, direction: -normal };
+        let hit = self.tracer.closest(&ray)?;
+        (hit.distance <= 2.0 * reach).then_some((ray, hit))
     }
 
     /// The same scene cut differently; costs only the new mesh.

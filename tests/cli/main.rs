@@ -1,5 +1,7 @@
 //! The program as it is called from a shell.
 
+mod accuracy;
+mod budget;
 mod checking;
 mod form_factors;
 mod inspecting;
@@ -9,6 +11,7 @@ mod rays;
 mod refusing;
 mod rendering;
 mod solving;
+mod studying;
 
 use serde_json::Value;
 use std::path::Path;
@@ -25,6 +28,8 @@ fn program(folder: &TempDir, arguments: &str) -> Command {
     command.current_dir(folder).args(arguments.split_whitespace()).stdin(Stdio::null());
     // Without this some graphics drivers complain on standard error.
     command.env("XDG_RUNTIME_DIR", folder.path());
+    // Nothing is known from before.
+    command.env("XDG_CACHE_HOME", folder.path());
     command
 }
 

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 /// A worker that did five steps in the furnace and waits.
 fn after_five_steps() -> (Worker, Arc<Snapshot>) {
-    let worker = Worker::spawn(|| ());
+    let worker = Worker::spawn(None, || ());
     worker.send(Command::Configure(with_elements(0.125)));
     load(&worker, "furnace");
     worker.send(Command::Step(5));
@@ -32,7 +32,7 @@ fn same_solution(a: &Snapshot, b: &Snapshot) -> bool {
 
 #[test]
 fn the_newest_of_several_scenes_wins() {
-    let worker = Worker::spawn(|| ());
+    let worker = Worker::spawn(None, || ());
     for scene in ["gallery", "cornell-box", "no such scene", "two-rooms", "furnace"] {
         worker.send(Command::Load(scene.to_owned()));
     }
@@ -126,7 +126,7 @@ fn reset_starts_from_the_emitters_again() {
 #[test]
 fn a_scene_without_emitters_converges_at_once_and_says_why() {
     let (_folder, path) = dark_scene();
-    let worker = Worker::spawn(|| ());
+    let worker = Worker::spawn(None, || ());
     let loaded = load(&worker, &path.display().to_string());
     let kinds = |snapshot: &Snapshot| -> Vec<FindingKind> {
         snapshot.world.as_ref().expect("a world").scene.findings.iter().map(|finding| finding.kind).collect()
@@ -158,7 +158,7 @@ fn a_scene_with_emitters_gets_no_ceiling_light() {
 #[test]
 fn commands_before_any_scene_do_no_harm() {
     let settings = Settings { seed: 7, ..with_elements(0.25) };
-    let worker = Worker::spawn(|| ());
+    let worker = Worker::spawn(None, || ());
     for command in [
         Command::Run,
         Command::Step(3),

@@ -1,6 +1,7 @@
 //! Methods whose steps do what a test says.
 
 use glam::Vec3A;
+use lightwell::accuracy::{Cache, Found, ProbePoint, Reference};
 use lightwell::cancel::Cancel;
 use lightwell::effects::Bill;
 use lightwell::math::rgb::Rgb;
@@ -129,6 +130,10 @@ impl Workshop for Fakes {
         Box::new(FakeOcclusion { work, counts, rounds: 0, settings: *settings })
     }
 
+    fn reference(&mut self, _: &Arc<World>) -> Option<(Reference, Option<Cache>)> {
+        None
+    }
+
     fn image(&mut self, lights: Lights<'_, FakePhotons>, shot: &CameraShot, _: &Settings) -> FakeImage {
         assert_eq!(lights.photons.is_some(), shot.view.needs_photons());
         assert_eq!(lights.radiosity.is_some(), shot.view.needs_radiosity());
@@ -241,6 +246,12 @@ impl PhotonMethod for FakePhotons {
         let photons = Arc::new((0..batches).map(photon).collect());
         PhotonSolution { batches, passes, is_complete, photons, ..PhotonSolution::default() }
     }
+
+    fn irradiance(&mut self, points: &[ProbePoint]) -> Found {
+        Found { irradiance: vec![Rgb::ONE; points.len()], variance: None }
+    }
+
+    fn count_pass(&mut self, _: &[ProbePoint]) {}
 
     fn trail(&mut self, photon: &Photon) -> Option<PhotonTrail> {
         let place = TrailPlace { point: photon.position, flux: photon.flux, survival: 1.0, scattering: None };

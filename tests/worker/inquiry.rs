@@ -20,7 +20,7 @@ fn place(snapshot: &Snapshot, patch: u32) -> Place {
 
 /// The Cornell box with two patches picked, paused before the first shot.
 fn picked() -> (Worker, Arc<Snapshot>) {
-    let worker = Worker::spawn(|| ());
+    let worker = Worker::spawn(None, || ());
     worker.send(Command::Configure(with_elements(0.1)));
     let loaded = load(&worker, "cornell-box");
     worker.send(Command::Pick(Some(place(&loaded, 0))));

@@ -62,7 +62,7 @@ fn every_command_takes_effect_in_the_middle_of_a_step() {
 #[test]
 fn a_long_shot_is_interrupted() {
     // Some 600,000 elements with many rays each: on two cores a shot takes a good part of a second.
-    let worker = Worker::spawn(|| ());
+    let worker = Worker::spawn(None, || ());
     worker.send(Command::Configure(Settings { shadow_rays: Settings::MAX_SHADOW_RAYS, ..with_elements(0.0018) }));
     load(&worker, "cornell-box");
     worker.send(Command::Step(2));

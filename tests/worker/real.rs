@@ -30,7 +30,7 @@ fn brightness(image: &CameraImage) -> f32 {
 
 /// The Cornell box with some light of both kinds, at rest.
 fn lit() -> (Worker, Arc<Snapshot>) {
-    let worker = Worker::spawn(|| ());
+    let worker = Worker::spawn(None, || ());
     let photons = PhotonSettings { count: 50_000, caustic_count: 1_000, ..PhotonSettings::default() };
     let image = ImageSettings { samples: 2, gather_rays: 8, ..ImageSettings::default() };
     worker.send(Command::Configure(Settings { photons, image, ..crate::with_elements(0.1) }));

@@ -14,7 +14,7 @@ fn a_scene_that_cannot_be_opened_leaves_the_one_that_is_open() {
     let path = |name: &str| folder.path().join(name).display().to_string();
     std::fs::create_dir(path("folder.obj")).expect("a folder");
     std::fs::write(path("empty.obj"), "").expect("a file");
-    let worker = Worker::spawn(|| ());
+    let worker = Worker::spawn(None, || ());
     load(&worker, "furnace");
     worker.send(Command::Step(2));
     let before = wait_for(&worker, "stepped", |now| steps(now) == 2 && now.phase == Phase::Paused);

@@ -1,14 +1,15 @@
 //! What was found at points, printed as a table or as JSON.
 
 use super::super::CliError;
-use super::points::Sensor;
+use super::super::judge::Verdict;
+use crate::accuracy::ProbePoint;
 use crate::math::rgb::Rgb;
 use serde_json::{Value, json};
 use std::io::Write;
 
 /// What was found at a point, and how good it is.
 pub struct Measured {
-    pub sensor: Sensor,
+    pub at: ProbePoint,
     /// The irradiance, W/m², or the share of ambient light that arrives.
     pub value: Rgb,
     pub quality: Quality,
@@ -21,23 +22,33 @@ pub enum Quality {
     Estimate { relative_error: f32, radius: f32, photons: u32 },
     /// Of a mean over passes: its standard error, W/m², by channel.
     Mean { standard_error: [f64; 3], passes: u64 },
+    /// Of a mean over samples as a picture has them: at most its standard error, W/m², by channel. A bias is not in it.
+    Samples { standard_error: [f64; 3], samples: u64 },
     /// Of a mean over paths: its standard error, W/m², by channel.
     Paths { standard_error: [f64; 3], paths: u64 },
     /// Of a share: its standard error, the same in all channels.
     Share { standard_error: f64, rays: u64 },
 }
 
-pub fn print(measured: &[Measured], as_json: bool) -> Result<(), CliError> {
+/// With how far off they are, where that was measured.
+pub fn print(measured: &[Measured], verdict: Option<&Verdict>, as_json: bool) -> Result<(), CliError> {
     let mut out = std::io::BufWriter::new(std::io::stdout().lock());
     if as_json {
         let points: Vec<Value> = measured.iter().map(Measured::json).collect();
-        writeln!(out, "{}", json!({ "points": points }))?;
+        let mut report = json!({ "points": points });
+        if let Some(verdict) = verdict {
+            report["accuracy"] = verdict.json();
+        }
+        writeln!(out, "{report}")?;
     } else {
         let columns = measured.first().map_or("", |first| first.quality.columns());
         writeln!(out, "x,y,z,nx,ny,nz,r,g,b{columns}")?;
-        for Measured { sensor: (point, normal), value, quality } in measured {
-            let numbers = [*point, *normal, *value].map(|v| format!("{},{},{}", v.x, v.y, v.z));
+        for Measured { at, value, quality } in measured {
+            let numbers = [at.point.into(), at.normal.into(), *value].map(|v| format!("{},{},{}", v.x, v.y, v.z));
             writeln!(out, "{}{}", numbers.join(","), quality.values())?;
+        }
+        if let Some(verdict) = verdict {
+            eprint!("{}", verdict.text());
         }
     }
     out.flush()?;
@@ -46,7 +57,7 @@ pub fn print(measured: &[Measured], as_json: bool) -> Result<(), CliError> {
 
 impl Measured {
     fn json(&self) -> Value {
-        let (point, normal) = self.sensor;
+        let ProbePoint { point, normal } = self.at;
         let mut object = json!({ "point": point.to_array(), "normal": normal.to_array() });
         let what = if let Quality::Share { .. } = self.quality { "share" } else { "irradiance" };
         object[what] = json!(self.value.to_array());
@@ -60,6 +71,10 @@ impl Measured {
             Quality::Mean { standard_error, passes } => {
                 object["standard_error"] = json!(standard_error);
                 object["passes"] = json!(passes);
+            }
+            Quality::Samples { standard_error, samples } => {
+                object["standard_error"] = json!(standard_error);
+                object["samples"] = json!(samples);
             }
             Quality::Paths { standard_error, paths } => {
                 object["standard_error"] = json!(standard_error);
@@ -81,6 +96,7 @@ impl Quality {
             Self::Unknown => "",
             Self::Estimate { .. } => ",relative_error,radius,photons",
             Self::Mean { .. } => ",r_error,g_error,b_error,passes",
+            Self::Samples { .. } => ",r_error,g_error,b_error,samples",
             Self::Paths { .. } => ",r_error,g_error,b_error,paths",
             Self::Share { .. } => ",standard_error,rays",
         }
@@ -91,6 +107,7 @@ impl Quality {
             Self::Unknown => String::new(),
             Self::Estimate { relative_error, radius, photons } => format!(",{relative_error},{radius},{photons}"),
             Self::Mean { standard_error: [r, g, b], passes } => format!(",{r},{g},{b},{passes}"),
+            Self::Samples { standard_error: [r, g, b], samples } => format!(",{r},{g},{b},{samples}"),
             Self::Paths { standard_error: [r, g, b], paths } => format!(",{r},{g},{b},{paths}"),
             Self::Share { standard_error, rays } => format!(",{standard_error},{rays}"),
         }

@@ -4,12 +4,16 @@ mod measured;
 mod methods;
 mod points;
 
+use super::judge::Judge;
 use super::occlusion_options::OcclusionOptions;
 use super::photon_options::{LightMethod, PhotonOptions};
 use super::run_options::RunOptions;
 use super::solve::check_method;
 use super::{CliError, refuse, values};
+use crate::accuracy::{self, Found};
 use crate::choice::{Choice, parse};
+use crate::methods::image::Meters;
+use crate::methods::{ImageSettings, OcclusionSettings, Settings};
 use crate::solution::CameraView;
 use crate::worker::Subject;
 use std::path::PathBuf;
@@ -18,7 +22,8 @@ use std::path::PathBuf;
 pub struct Options {
     #[command(flatten)]
     run: RunOptions,
-    /// What is computed: light by radiosity or photon-map, by path tracing as reference, or ambient-occlusion
+    /// What is computed: light by radiosity or photon-map; as the views radiosity-direct, final-gather or diffuse-ao show it;
+    /// by path tracing as reference; or ambient-occlusion
     #[arg(long, value_name = "METHOD", default_value = Method::default().name(), value_parser = parse::<Method>)]
     method: Method,
     #[command(flatten)]
@@ -26,14 +31,22 @@ pub struct Options {
     #[command(flatten)]
     occlusion: OcclusionOptions,
     /// Lines of `x y z nx ny nz`; `-` for standard input
-    #[arg(long, value_name = "FILE|-", required_unless_present = "spread")]
+    #[arg(long, value_name = "FILE|-", required_unless_present_any = ["spread", "accuracy"])]
     points: Option<PathBuf>,
-    /// Instead, N points spread by area over all surfaces that light reaches: the same for all methods with this --seed
+    /// Instead, N points spread by area over all surfaces that light reaches: always the same of a scene
     #[arg(long, value_name = "N", conflicts_with = "points", value_parser = values::count::<{ MOST_POINTS }>)]
     spread: Option<u32>,
-    /// Paths from each point, for --method reference [default: 4096, or as many as --time allows]
+    /// Instead, the points where errors are measured, and how far off the method is there, against a path-traced reference
+    /// that is kept for the next time
+    #[arg(long, conflicts_with_all = ["points", "spread"])]
+    accuracy: bool,
+    /// Paths from each point, for --method reference [default: 4096, or as many as --time allows], or samples of a view
+    /// [default: 16, or as many as --time allows]
     #[arg(long, value_name = "N", value_parser = values::count::<{ u32::MAX }>)]
     samples: Option<u32>,
+    /// Diffuse rays of a sample, for --method final-gather [default: 64]
+    #[arg(long, value_name = "N", value_parser = values::count::<{ ImageSettings::MAX_GATHER_RAYS }>)]
+    gather_rays: Option<u32>,
     /// Print one JSON object and nothing else
     #[arg(long)]
     json: bool,
@@ -46,6 +59,8 @@ const MOST_POINTS: u32 = 1_000_000;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Method {
     Light(LightMethod),
+    /// Light as pictures of a view show it: one of [`Meters::VIEWS`].
+    View(CameraView),
     /// Light without a bias.
     Reference,
     AmbientOcclusion,
@@ -61,6 +76,9 @@ impl Choice for Method {
     const ALL: &'static [Self] = &[
         Self::Light(LightMethod::Radiosity),
         Self::Light(LightMethod::PhotonMap),
+        Self::View(Meters::VIEWS[0]),
+        Self::View(Meters::VIEWS[1]),
+        Self::View(Meters::VIEWS[2]),
         Self::Reference,
         Self::AmbientOcclusion,
     ];
@@ -69,6 +87,7 @@ impl Choice for Method {
     fn name(self) -> &'static str {
         match self {
             Self::Light(method) => method.name(),
+            Self::View(view) => view.name(),
             Self::Reference => CameraView::Reference.name(),
             Self::AmbientOcclusion => CameraView::AmbientOcclusion.name(),
         }
@@ -77,6 +96,7 @@ impl Choice for Method {
     fn label(self) -> &'static str {
         match self {
             Self::Light(method) => method.label(),
+            Self::View(view) => view.label(),
             Self::Reference => CameraView::Reference.label(),
             Self::AmbientOcclusion => CameraView::AmbientOcclusion.label(),
         }
@@ -85,6 +105,7 @@ impl Choice for Method {
     fn meaning(self) -> &'static str {
         match self {
             Self::Light(method) => method.meaning(),
+            Self::View(view) => view.meaning(),
             Self::Reference => CameraView::Reference.meaning(),
             Self::AmbientOcclusion => CameraView::AmbientOcclusion.meaning(),
         }
@@ -94,49 +115,89 @@ impl Choice for Method {
 pub fn run(options: &Options) -> Result<(), CliError> {
     options.check();
     let world = options.run.open()?;
-    let sensors = match &options.points {
-        Some(path) => points::read(path)?,
-        None => points::spread(&world, options.spread.unwrap_or_default(), options.run.settings().seed),
+    let mut judge = options.accuracy.then(|| Judge::new(world.clone()));
+    let points = match (&options.points, &judge) {
+        (Some(path), _) => points::read(path)?,
+        (None, Some(judge)) => judge.points().to_vec(),
+        (None, None) => accuracy::spread(&world, options.spread.unwrap_or_default() as usize),
     };
     let measured = match options.method {
-        Method::Light(LightMethod::Radiosity) => methods::by_radiosity(options, world, &sensors)?,
-        Method::Light(LightMethod::PhotonMap) => methods::by_photons(options, world, &sensors)?,
-        Method::Reference => methods::by_paths(options, world, &sensors)?,
-        Method::AmbientOcclusion => methods::by_occlusion(options, world, &sensors)?,
+        Method::Light(LightMethod::Radiosity) => methods::by_radiosity(options, world, &points)?,
+        Method::Light(LightMethod::PhotonMap) => methods::by_photons(options, world, &points)?,
+        Method::View(view) => methods::by_view(options, view, world, &points)?,
+        Method::Reference => methods::by_paths(options, world, &points)?,
+        Method::AmbientOcclusion => methods::by_occlusion(options, world, &points)?,
     };
-    measured::print(&measured, options.json)
+    let found = || Found { irradiance: measured.iter().map(|measured| measured.value).collect(), variance: None };
+    let verdict = judge.as_mut().map(|judge| judge.verdict(&found()));
+    measured::print(&measured, verdict.as_ref(), options.json)
 }
 
 impl Options {
+    /// Those with which a view is made: its rays to the emitters are its own.
+    fn settings_of_view(&self) -> Settings {
+        let default = ImageSettings::default();
+        let image = ImageSettings {
+            light_rays: self.run.light_rays.unwrap_or(default.light_rays),
+            gather_rays: self.gather_rays.unwrap_or(default.gather_rays),
+            ..default
+        };
+        Settings {
+            light_rays: Settings::default().light_rays,
+            photons: self.photons.settings(),
+            image,
+            occlusion: self.occlusion.settings(OcclusionSettings::default().rays),
+            ..self.run.settings()
+        }
+    }
+
     /// Ends the program, as any other wrong command line does, where an option is about another method.
     fn check(&self) {
-        let (run, name) = (&self.run, self.method.name());
-        let rays = run.light_rays.map(|_| "--light-rays");
-        let samples = self.samples.map(|_| "--samples");
-        let stranger = match self.method {
-            Method::Light(method) => {
-                check_method(method, run, &self.photons);
-                self.occlusion.given().or(samples)
-            }
-            Method::Reference => self.photons.given().or(run.stop_of_radiosity()).or(rays).or(self.occlusion.given()),
-            Method::AmbientOcclusion => {
-                let time = run.time().map(|_| "--time");
-                self.photons.given().or(run.stop_of_radiosity()).or(rays).or(time).or(samples)
-            }
-        };
-        if let Some(option) = stranger {
+        if let Method::Light(method) = self.method {
+            check_method(method, &self.run, &self.photons);
+        }
+        let name = self.method.name();
+        if let Some(option) = self.stranger() {
             refuse(&format!("{option} is not for --method {name}"));
         }
-        let view = match self.method {
-            Method::Light(_) => None,
-            Method::Reference => Some(CameraView::Reference),
-            Method::AmbientOcclusion => Some(CameraView::AmbientOcclusion),
-        };
-        if let Some(view) = view
-            && let Some(objection) =
-                run.effects.objection(Subject::Camera(view), &run.settings(), &format!("--method {name}"))
-        {
+        let Some(view) = self.method.view() else { return };
+        if self.run.light_rays.is_some_and(|rays| rays > ImageSettings::MAX_LIGHT_RAYS) {
+            refuse(&format!("--method {name} takes up to {} --light-rays", ImageSettings::MAX_LIGHT_RAYS));
+        }
+        let subject = Subject::Camera(view);
+        let objection = self.run.effects.objection(subject, &self.run.settings(), &format!("--method {name}"));
+        if let Some(objection) = objection {
             refuse(&objection);
+        }
+    }
+
+    /// An option that the method has no use for.
+    fn stranger(&self) -> Option<&'static str> {
+        let unless = |is_used: bool, option: Option<&'static str>| option.filter(|_| !is_used);
+        let view = self.method.view();
+        let is_light = matches!(self.method, Method::Light(_));
+        let is_share = self.method == Method::AmbientOcclusion;
+        let is_read = matches!(self.method, Method::View(_) | Method::Reference);
+        let shows = |used: fn(CameraView) -> bool| view.is_some_and(used);
+        unless(is_light || shows(CameraView::needs_photons), self.photons.given())
+            .or(unless(is_light || shows(CameraView::needs_radiosity), self.run.stop_of_radiosity()))
+            .or(unless(is_light || shows(CameraView::samples_emitters), self.run.light_rays.map(|_| "--light-rays")))
+            .or(unless(shows(|view| view == CameraView::FinalGather), self.gather_rays.map(|_| "--gather-rays")))
+            .or(unless(shows(CameraView::is_occluded), self.occlusion.given()))
+            .or(unless(!is_share, self.accuracy.then_some("--accuracy")))
+            .or(unless(is_read, self.samples.map(|_| "--samples")))
+            .or(unless(is_light || is_read, self.run.time().map(|_| "--time")))
+    }
+}
+
+impl Method {
+    /// The view whose effects it simulates.
+    fn view(self) -> Option<CameraView> {
+        match self {
+            Self::Light(_) => None,
+            Self::View(view) => Some(view),
+            Self::Reference => Some(CameraView::Reference),
+            Self::AmbientOcclusion => Some(CameraView::AmbientOcclusion),
         }
     }
 }

@@ -2,7 +2,7 @@
 //! and both together (Landis 2002).
 
 use super::direct;
-use super::eye_path::{Look, Sight, Tools};
+use super::eye_path::{DiffuseLight, Look, Seen, Sight, Tools};
 use crate::effects::Effect;
 use crate::math::rgb::Rgb;
 use crate::methods::Settings;
@@ -73,6 +73,11 @@ impl AmbientLook {
         }
     }
 
+    /// What the diffuse lobe sends on of direct light and of this share of the ambient light, W/(m²·sr).
+    fn lit(&self, surface: &Surface, bsdf: &Bsdf, share: f32, tools: &mut Tools<'_>) -> Rgb {
+        self.direct(surface, bsdf, tools) + bsdf.diffuse() * self.ambient * share / PI
+    }
+
     /// Light on the diffuse lobe straight from emitters, W/(m²·sr).
     fn direct(&self, surface: &Surface, bsdf: &Bsdf, tools: &mut Tools<'_>) -> Rgb {
         if self.transport.effects.contains(Effect::DirectLight) {
@@ -81,6 +86,13 @@ impl AmbientLook {
             tools.cost.save(Effect::DirectLight, self.light_rays);
             Rgb::ZERO
         }
+    }
+}
+
+impl DiffuseLight for AmbientLook {
+    fn leaving(&self, seen: &Seen<'_>, tools: &mut Tools<'_>) -> Rgb {
+        let share = self.share(seen.surface, tools);
+        self.lit(seen.surface, seen.bsdf, share, tools)
     }
 }
 
@@ -94,9 +106,7 @@ impl Look for AmbientLook {
             return seen(Rgb::splat(share));
         }
         let bsdf = self.transport.bsdf(&surface, -ray.direction, &media).only(Scattering::Diffuse);
-        let direct = self.direct(&surface, &bsdf, tools);
-        let ambient = bsdf.diffuse() * self.ambient * share / PI;
-        seen(self.transport.emission(&surface) + direct + ambient)
+        seen(self.transport.emission(&surface) + self.lit(&surface, &bsdf, share, tools))
     }
 
     fn transport(&self) -> &Transport {

@@ -10,6 +10,7 @@ mod eye_path;
 mod film;
 mod gather;
 mod lights;
+mod meters;
 mod photon_light;
 mod reference;
 
@@ -27,6 +28,7 @@ use eye_path::{DiffuseLight, EyePath, Look};
 use film::Film;
 use gather::GatherLight;
 use lights::{DirectLight, RadiosityLight};
+pub use meters::Meters;
 use photon_light::{PhotonLight, Shown};
 use std::sync::Arc;
 use std::time::Duration;
@@ -41,8 +43,8 @@ pub struct Sources {
 
 impl Sources {
     /// What the diffuse surfaces of a view send on; `None` also where a view has no such light.
-    fn light(&self, view: CameraView, settings: &ImageSettings) -> Option<Box<dyn DiffuseLight>> {
-        let transport = self.transport.clone();
+    fn light(&self, view: CameraView, all: &Settings) -> Option<Box<dyn DiffuseLight>> {
+        let (transport, settings) = (self.transport.clone(), &all.image);
         Some(match view {
             CameraView::RayTraced => {
                 Box::new(DirectLight { transport, rays: settings.light_rays, matcher: settings.filter.matcher() })
@@ -62,9 +64,9 @@ impl Sources {
                 light_rays: settings.light_rays,
                 matcher: settings.filter.matcher(),
             }),
+            CameraView::DiffuseAmbient => Box::new(AmbientLook::new(transport, Parts::DiffuseAmbient, all)),
             CameraView::AmbientOcclusion
             | CameraView::Diffuse
-            | CameraView::DiffuseAmbient
             | CameraView::AmbientMinusIndirect
             | CameraView::Reference => return None,
         })
@@ -87,14 +89,14 @@ impl Sources {
                 let matcher = settings.image.filter.matcher();
                 return Some(Arc::new(PathTracer::new(self.transport.clone(), matcher)));
             }
-            _ => return Some(Arc::new(self.eye_path(view, &settings.image)?)),
+            _ => return Some(Arc::new(self.eye_path(view, settings)?)),
         };
         Some(Arc::new(AmbientLook::new(self.transport.clone(), parts, settings)))
     }
 
-    fn eye_path(&self, view: CameraView, settings: &ImageSettings) -> Option<EyePath> {
+    fn eye_path(&self, view: CameraView, settings: &Settings) -> Option<EyePath> {
         // Radiosity knows nothing of the ways that its light came.
-        let filter = if view.needs_radiosity() { PathFilter::default() } else { settings.filter };
+        let filter = if view.needs_radiosity() { PathFilter::default() } else { settings.image.filter };
         Some(EyePath {
             transport: self.transport.clone(),
             light: self.light(view, settings)?,

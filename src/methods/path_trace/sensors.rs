@@ -97,6 +97,20 @@ impl Sensors {
         self.paths * Self::REPLICATES as u64
     }
 
+    /// All that was found so far: paths of each replicate, and for each sensor the sums of E over the paths of each, W/m².
+    pub fn found(&self) -> (u64, &[[Rgb64; Self::REPLICATES]]) {
+        (self.paths, &self.sums)
+    }
+
+    /// Goes on from what was found before; false, and nothing changes, where that is not about as many sensors.
+    pub fn go_on_from(&mut self, paths: u64, sums: Vec<[Rgb64; Self::REPLICATES]>) -> bool {
+        let fits = sums.len() == self.sensors.len();
+        if fits {
+            (self.paths, self.sums) = (paths, sums);
+        }
+        fits
+    }
+
     pub fn rays(&self) -> u64 {
         self.cost.rays
     }

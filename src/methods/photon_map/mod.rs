@@ -138,6 +138,10 @@ impl PhotonMapping {
         Step::Advanced
     }
 
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
     /// Takes settings over that need no other photons; false, and nothing changes, if they do.
     pub fn configure(&mut self, settings: &Settings) -> bool {
         let (old, new) = (&self.settings.photons, &settings.photons);

@@ -20,7 +20,7 @@ use crate::effects::{Effect, Effects, Switches};
 use crate::math::polygon::vector_area;
 use crate::math::rgb::Rgb;
 use crate::scene::{Lobes, Material};
-use crate::tracer::Ray;
+use crate::tracer::{Hit, Ray};
 use crate::world::World;
 use glam::{DVec3, Vec3, Vec3A};
 use std::sync::Arc;
@@ -36,9 +36,6 @@ pub struct Transport {
     emitters: Emitters,
     has_glass: bool,
 }
-
-/// A point lies on a surface that is nearer than this share of the scene's radius.
-const ON_SURFACE: f32 = 1e-3;
 
 /// What the simulated effects leave of a material.
 struct MaterialLook {
@@ -92,9 +89,12 @@ impl Transport {
 
     /// The first surface along a ray.
     pub fn meet(&self, ray: &Ray) -> Option<Surface> {
-        let hit = self.world.tracer.closest(ray)?;
+        Some(self.surface_hit(ray, &self.world.tracer.closest(ray)?))
+    }
+
+    fn surface_hit(&self, ray: &Ray, hit: &Hit) -> Surface {
         let along = ray.origin + hit.distance * ray.direction;
-        Some(Surface { distance: hit.distance, ..self.surface_on(hit.polygon, hit.is_front, along) })
+        Surface { distance: hit.distance, ..self.surface_on(hit.polygon, hit.is_front, along) }
     }
 
     /// The surface at a point of a side of a polygon, as a ray meets it that comes from there.
@@ -117,9 +117,8 @@ impl Transport {
 
     /// The surface at a point, seen from the side that the unit `normal` faces; `None` where there is none.
     pub fn surface_at(&self, point: Vec3A, normal: Vec3A) -> Option<Surface> {
-        let reach = ON_SURFACE * self.world.bounds.radius();
-        let surface = self.meet(&Ray { origin: point + reach * normal, direction: -normal })?;
-        (surface.distance <= 2.0 * reach).then_some(surface)
+        let (ray, hit) = self.world.meet_at(point, normal)?;
+        Some(self.surface_hit(&ray, &hit))
     }
 
     pub fn material(&self, surface: &Surface) -> &Material {

@@ -74,12 +74,15 @@ impl<W: Workshop> Solver<W> {
             // Should the method panic before its first step, the world on show stays, and its light with it.
             let method = self.workshop.radiosity(&world, &settings)?;
             self.radiosity.begin(Run::of(method));
+            self.judge.follow(&world);
+            self.show_tracks();
             self.snapshot.plan = Some(Arc::new(plan(&world)));
             self.snapshot.seconds_per_ray = seconds_per_ray(&world);
             self.snapshot.world = Some(world);
         }
         self.look_again(is_same_world);
         self.history.begin(&settings);
+        self.judge.tracks.begin(LightKind::Radiosity, &settings);
         if let Some(solution) = self.radiosity.run.as_ref().map(Run::solution) {
             self.record(solution);
         }
@@ -91,6 +94,7 @@ impl<W: Workshop> Solver<W> {
         self.at_work = Part::Light(LightKind::Photons);
         let method = self.workshop.photons(world, &self.snapshot.settings)?;
         self.photons.begin(PhotonRun::of(method));
+        self.judge.tracks.begin(LightKind::Photons, &self.snapshot.settings);
         self.snapshot.trail = None;
         self.record_photons();
         Ok(())
@@ -146,7 +150,13 @@ impl<W: Workshop> Solver<W> {
                         self.history.record(run.progress(), run.elapsed());
                     }
                 }
-                LightKind::Photons => self.photons.steps += 1,
+                LightKind::Photons => {
+                    self.photons.steps += 1;
+                    let is_whole = self.photons.run.as_ref().is_some_and(|run| run.progress().is_complete);
+                    if is_whole && self.snapshot.settings.photons.is_progressive {
+                        self.count_pass();
+                    }
+                }
                 LightKind::Occlusion => self.occlusion.steps += 1,
             }
         }

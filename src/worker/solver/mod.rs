@@ -1,6 +1,7 @@
 //! The loop of the solver thread: what is done next, and what is told of it.
 
 mod easel;
+mod judging;
 mod lights;
 mod picks;
 mod pictures;
@@ -8,6 +9,7 @@ mod scenes;
 
 use super::going::Going;
 use super::history::History;
+use super::judge::Judge;
 use super::mailbox::{Mail, Mailbox};
 use super::run::{OcclusionRun, PhotonRun, Run};
 use super::workshop::Workshop;
@@ -41,6 +43,7 @@ pub struct Solver<W: Workshop> {
     history: History,
     /// What is picked in the light on surfaces.
     inquiry: Inquiry,
+    judge: Judge,
     /// Where the estimate from photons is looked into.
     spot: Option<Spot>,
     /// By how much longer the light on show was worked on than the picture that is read off it, since both wanted to be.
@@ -83,6 +86,7 @@ enum Part {
     Light(LightKind),
     Picture,
     Inquiry,
+    Truth,
 }
 
 /// What there is to do without a command.
@@ -91,6 +95,10 @@ enum Task {
     Equation,
     Light(LightKind),
     Picture,
+    /// Says how far off a light is.
+    Measure(LightKind),
+    /// Makes the truth better known, which lights are held against.
+    Refine,
 }
 
 impl<W: Workshop> Solver<W> {
@@ -108,6 +116,7 @@ impl<W: Workshop> Solver<W> {
             easel: Easel::default(),
             history: History::default(),
             inquiry: Inquiry::default(),
+            judge: Judge::default(),
             spot: None,
             lead: 0.0,
             at_work: Part::Light(LightKind::Radiosity),
@@ -150,8 +159,7 @@ impl<W: Workshop> Solver<W> {
         }
     }
 
-    /// What is on show comes first: its picture and its light by turns, the first coarse picture before its light. Then the
-    /// lights go on that are not on show.
+    /// What a person waits for comes first, and measuring when nothing else is to be done, or on account.
     fn next_task(&mut self) -> Option<Task> {
         if let Some(patch) = self.patch_to_look_from() {
             return Some(Task::LookFrom(patch));
@@ -159,6 +167,15 @@ impl<W: Workshop> Solver<W> {
         if self.is_equation_due() {
             return Some(Task::Equation);
         }
+        let task = self.next_of_light();
+        let is_urgent = self.picture_to_do().is_some_and(|picture| picture.is_urgent);
+        let judging = if is_urgent { None } else { self.judging_to_do(task.is_some()) };
+        judging.or(task)
+    }
+
+    /// What is on show comes first: its picture and its light by turns, the first coarse picture before its light. Then the
+    /// lights go on that are not on show.
+    fn next_of_light(&mut self) -> Option<Task> {
         let light = self.subject().light().filter(|&kind| self.going(kind).is_running());
         let picture = self.picture_to_do();
         if picture.is_none() || light.is_none() {
@@ -177,6 +194,8 @@ impl<W: Workshop> Solver<W> {
         let sign = match task {
             Task::LookFrom(patch) => return self.look_from(patch),
             Task::Equation => return self.look_into_equation(),
+            Task::Measure(kind) => return self.on_account(|solver| solver.measure(kind)),
+            Task::Refine => return self.on_account(Self::refine),
             Task::Light(kind) => {
                 self.step(kind);
                 1.0
@@ -186,7 +205,9 @@ impl<W: Workshop> Solver<W> {
                 -1.0
             }
         };
-        self.lead += sign * start.elapsed().as_secs_f64();
+        let seconds = start.elapsed().as_secs_f64();
+        self.judge.earn(seconds);
+        self.lead += sign * seconds;
     }
 
     fn subject(&self) -> Subject {
@@ -242,6 +263,10 @@ impl<W: Workshop> Solver<W> {
                 self.occlusion.run = None;
                 self.occlusion.going = Going::Crashed;
                 "ambient occlusion"
+            }
+            Part::Truth => {
+                self.judge.has_crashed = true;
+                "measuring of errors"
             }
             Part::Picture => {
                 self.easel.clear();

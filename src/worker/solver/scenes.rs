@@ -70,7 +70,7 @@ impl<W: Workshop> Solver<W> {
         let old = std::mem::replace(&mut self.snapshot.settings, settings);
         let Some(world) = self.snapshot.world.clone() else { return self.publish() };
         if old.mesh == settings.mesh {
-            let mut refusal = self.configure_photons(&world).err();
+            let mut refusal = self.configure_photons(&world, &old).err();
             if refusal.is_some() {
                 // All light has the same seed.
                 self.snapshot.settings = Settings { photons: old.photons, seed: old.seed, ..settings };
@@ -104,12 +104,15 @@ impl<W: Workshop> Solver<W> {
         Ok(())
     }
 
-    fn configure_photons(&mut self, world: &Arc<World>) -> Result<(), Refused> {
+    fn configure_photons(&mut self, world: &Arc<World>, old: &Settings) -> Result<(), Refused> {
         let settings = self.snapshot.settings;
         self.at_work = Part::Light(LightKind::Photons);
         let has_begun = self.photons.run.is_some() || self.photons.going == Going::Crashed;
         if has_begun && !self.photons.run.as_mut().is_some_and(|run| run.configure(&settings)) {
             self.start_photons(world)?;
+        } else if (PhotonSettings { passes: old.photons.passes, ..settings.photons }) != old.photons {
+            // The same photons, read off in another way.
+            self.judge.tracks.begin(LightKind::Photons, &settings);
         }
         self.photons.going.renew();
         Ok(())

@@ -1,0 +1,305 @@
+//! One recipe followed to its end, or until time is up, and measured on its way.
+
+use super::bench::Bench;
+use super::recipe::{Recipe, Way};
+use crate::accuracy::{Found, ProbePoint, by_photons, by_radiosity};
+use crate::cancel::Cancel;
+use crate::math::rgb::Rgb;
+use crate::methods::image::{Meters, Sources};
+use crate::methods::path_trace::{Sensor, Sensors};
+use crate::methods::photon_map::{PhotonMaps, ProgressivePoints, Which};
+use crate::methods::radiosity::FullMatrix;
+use crate::methods::transport::{Surface, Transport};
+use crate::methods::{ImageSettings, PhotonSettings, Settings, Step};
+use crate::solution::{Photon, PhotonSolution, Solution};
+use crate::worker::{Methods, PhotonRun, Refused, Run, TracedPhotons, Workshop};
+use crate::world::{World, WorldError};
+use std::ops::ControlFlow;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// A run is measured again when it has taken so many times as long.
+const PACE: f64 = 1.4;
+
+/// Where a run stood at one moment.
+#[derive(Clone)]
+pub struct Outcome {
+    /// With the passes, samples or unshot light that there were by then.
+    pub recipe: Recipe,
+    /// Whether the recipe was followed to its end.
+    pub is_finished: bool,
+    /// Of the solver.
+    pub seconds: f64,
+    /// From the cutting of the mesh to the measuring of the error.
+    pub all_seconds: f64,
+    pub rays: u64,
+    /// Memory that it held besides the scene.
+    pub bytes: u64,
+    pub found: Found,
+    /// Light that is everywhere, where it is.
+    pub light: Option<Light>,
+}
+
+/// Light that a recipe has computed, in the world that it was computed in.
+#[derive(Clone)]
+pub enum Light {
+    Radiosity(Arc<World>, Arc<Solution>),
+    Photons(Arc<World>, Arc<PhotonSolution>),
+}
+
+/// Whether a recipe is followed any further.
+pub type Verdict = ControlFlow<()>;
+
+/// Why a recipe cannot be followed.
+#[derive(Debug, thiserror::Error)]
+pub enum CannotTry {
+    #[error(transparent)]
+    World(#[from] WorldError),
+    #[error(transparent)]
+    Refused(#[from] Refused),
+}
+
+/// Follows a recipe until its end or until `end`, and hands out what it found at the truth's points: on its way whenever the
+/// time has grown by a good part or the samples have doubled, and at last. `note` may end it before.
+///
+/// # Errors
+/// If the scene cannot be cut so finely, or there is not enough memory.
+pub fn attempt(
+    bench: &mut Bench,
+    recipe: &Recipe,
+    end: Instant,
+    cancel: &Cancel,
+    note: &mut dyn FnMut(Outcome) -> Verdict,
+) -> Result<(), CannotTry> {
+    let settings = &recipe.settings;
+    let points = bench.reference.points().clone();
+    let mut trial = Trial { recipe, points: &points, start: Instant::now(), end, cancel, note };
+    match recipe.way {
+        Way::Radiosity => {
+            let world = bench.remeshed(&settings.mesh, cancel)?;
+            trial.radiosity(&world)?;
+        }
+        Way::RadiosityDirect => {
+            let world = bench.remeshed(&settings.mesh, cancel)?;
+            trial.view(&world)?;
+        }
+        Way::PhotonMap => trial.photons(bench.world())?,
+        Way::FinalGather | Way::DiffuseAo => trial.view(bench.world())?,
+        Way::Reference => trial.paths(bench.world()),
+    }
+    Ok(())
+}
+
+/// A recipe in the making.
+struct Trial<'a> {
+    recipe: &'a Recipe,
+    points: &'a [ProbePoint],
+    start: Instant,
+    end: Instant,
+    cancel: &'a Cancel,
+    note: &'a mut dyn FnMut(Outcome) -> Verdict,
+}
+
+impl Trial<'_> {
+    fn has_time(&self) -> bool {
+        Instant::now() < self.end && !self.cancel.is_requested()
+    }
+
+    /// Hands out what was found by now.
+    fn tell(
+        &mut self,
+        settings: Settings,
+        is_finished: bool,
+        spent: Spent,
+        found: Found,
+        light: Option<Light>,
+    ) -> Verdict {
+        let recipe = Recipe { settings, ..*self.recipe };
+        let Spent { elapsed, rays, bytes } = spent;
+        let [seconds, all_seconds] = [elapsed, self.start.elapsed()].map(|time| time.as_secs_f64());
+        (self.note)(Outcome { recipe, is_finished, seconds, all_seconds, rays, bytes, found, light })
+    }
+
+    fn radiosity(&mut self, world: &Arc<World>) -> Result<(), Refused> {
+        self.solve(world, true).map(|_| ())
+    }
+
+    /// Runs radiosity; with `tells`, hands out its states. Whether it came to its end is in the second part.
+    fn solve(&mut self, world: &Arc<World>, tells: bool) -> Result<(Arc<Solution>, bool), Refused> {
+        let settings = self.recipe.settings;
+        let mut run = Run::start(world.clone(), &settings)?;
+        let mut next = Duration::ZERO;
+        loop {
+            let step = run.step(self.cancel);
+            let is_finished = step == Step::Converged;
+            let is_over = is_finished || step == Step::Cancelled || !self.has_time();
+            let is_told = tells && (is_over || step == Step::Advanced && run.elapsed() >= next);
+            if !is_told && !is_over {
+                continue;
+            }
+            let solution = Arc::new(run.solution());
+            let verdict = if is_told && solution.steps > 0 {
+                next = run.elapsed().mul_f64(PACE);
+                self.tell_radiosity(world, &solution, is_finished)
+            } else {
+                Verdict::Continue(())
+            };
+            if is_over || verdict.is_break() {
+                return Ok((solution, is_finished));
+            }
+        }
+    }
+
+    /// Hands out a state of radiosity. A run that is stopped is as good as one that was to stop there.
+    fn tell_radiosity(&mut self, world: &Arc<World>, solution: &Arc<Solution>, is_finished: bool) -> Verdict {
+        let settings = self.recipe.settings;
+        let found = by_radiosity(world, solution, self.points, settings.seed);
+        let unshot_limit = if is_finished { settings.unshot_limit } else { solution.unshot_share };
+        let spent = Spent {
+            elapsed: solution.elapsed,
+            rays: solution.counters.rays,
+            bytes: bytes_of_radiosity(world, &settings),
+        };
+        let light = Light::Radiosity(world.clone(), solution.clone());
+        self.tell(Settings { unshot_limit, ..settings }, is_finished, spent, found, Some(light))
+    }
+
+    fn photons(&mut self, world: &Arc<World>) -> Result<(), Refused> {
+        let settings = self.recipe.settings;
+        let mut run = PhotonRun::of(Methods::default().photons(world, &settings)?);
+        let mut means: Option<ProgressivePoints> = None;
+        let mut reading = Duration::ZERO;
+        let mut rays = 0;
+        for pass in 1..=if settings.photons.is_progressive { settings.photons.passes } else { 1 } {
+            if !self.trace_pass(&mut run) {
+                return Ok(());
+            }
+            let start = Instant::now();
+            let maps = run.method().maps();
+            rays += run.solution().counters.rays;
+            let found = if settings.photons.is_progressive {
+                let surfaces = || surfaces(maps.transport(), self.points);
+                let means = means.get_or_insert_with(|| ProgressivePoints::new(surfaces()));
+                means.add(&maps, Which::All);
+                pass.is_power_of_two().then(|| Found::of_samples(means.irradiance()))
+            } else {
+                Some(by_photons(&maps, self.points))
+            };
+            reading += start.elapsed();
+            if let Some(found) = found {
+                let photons = PhotonSettings { passes: pass, ..settings.photons };
+                let spent = Spent { elapsed: run.elapsed() + reading, rays, bytes: bytes_of_photons(&maps) };
+                let light = Light::Photons(world.clone(), Arc::new(run.solution()));
+                if self.tell(Settings { photons, ..settings }, true, spent, found, Some(light)).is_break() {
+                    return Ok(());
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// All photons of one pass; false if there was no time for them.
+    fn trace_pass(&self, run: &mut PhotonRun<TracedPhotons>) -> bool {
+        loop {
+            if !self.has_time() || run.step(self.cancel) != Step::Advanced {
+                return false;
+            }
+            if run.progress().is_complete {
+                return true;
+            }
+        }
+    }
+
+    /// As a view shows light, whose own light is found first.
+    fn view(&mut self, world: &Arc<World>) -> Result<(), Refused> {
+        let Some(view) = self.recipe.way.view() else { return Ok(()) };
+        let settings = self.recipe.settings;
+        let start = Instant::now();
+        let mut spent = Spent::default();
+        let mut sources = Sources {
+            transport: Arc::new(Transport::new(world.clone(), settings.effects)),
+            radiosity: None,
+            photons: None,
+        };
+        if view.needs_radiosity() {
+            let (solution, is_finished) = self.solve(world, false)?;
+            if !is_finished {
+                return Ok(());
+            }
+            spent.rays = solution.counters.rays;
+            spent.bytes = bytes_of_radiosity(world, &settings);
+            sources.radiosity = Some(solution);
+        }
+        if view.needs_photons() {
+            let mut run = PhotonRun::of(Methods::default().photons(world, &settings)?);
+            if !self.trace_pass(&mut run) {
+                return Ok(());
+            }
+            let maps = run.method().maps();
+            spent.rays = run.solution().counters.rays;
+            spent.bytes = bytes_of_photons(&maps);
+            sources.photons = Some(maps);
+        }
+        let surfaces = surfaces(&sources.transport, self.points);
+        let Some(mut meters) = Meters::new(&sources, view, surfaces, &settings) else { return Ok(()) };
+        while meters.samples() < settings.image.samples && self.has_time() && meters.step(self.cancel) {
+            let samples = meters.samples();
+            if samples.is_power_of_two() || samples == settings.image.samples {
+                let image = ImageSettings { samples, ..settings.image };
+                let spent = Spent { elapsed: start.elapsed(), rays: spent.rays + meters.rays(), bytes: spent.bytes };
+                let found = Found::of_samples(meters.irradiance());
+                if self.tell(Settings { image, ..settings }, true, spent, found, None).is_break() {
+                    return Ok(());
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn paths(&mut self, world: &Arc<World>) {
+        let settings = self.recipe.settings;
+        let start = Instant::now();
+        let transport = Arc::new(Transport::new(world.clone(), settings.effects));
+        let sensors = self.points.iter().map(|at| Sensor::new(&transport, at.point, at.normal)).collect();
+        let mut sensors = Sensors::new(transport.clone(), sensors, settings.seed);
+        let mut step = 1;
+        while self.has_time() && sensors.step(step, self.cancel) {
+            // As many again as there are: the points of a power of two are spread best.
+            step = sensors.paths() / Sensors::REPLICATES as u64;
+            let elapsed = start.elapsed();
+            let samples = u32::try_from(sensors.paths()).unwrap_or(u32::MAX);
+            let image = ImageSettings { samples, ..settings.image };
+            let spent = Spent { elapsed, rays: sensors.rays(), bytes: 0 };
+            let found = Found::of_samples(&sensors.irradiance());
+            let verdict = self.tell(Settings { image, ..settings }, true, spent, found, None);
+            // The next one would take as long as all before.
+            if verdict.is_break() || Instant::now() + elapsed > self.end {
+                break;
+            }
+        }
+    }
+}
+
+/// The price of a run so far.
+#[derive(Clone, Copy, Default)]
+struct Spent {
+    elapsed: Duration,
+    rays: u64,
+    bytes: u64,
+}
+
+fn surfaces(transport: &Transport, points: &[ProbePoint]) -> Vec<Surface> {
+    points.iter().filter_map(|at| transport.surface_at(at.point, at.normal)).collect()
+}
+
+/// Light of each element and, where it is kept, the matrix.
+fn bytes_of_radiosity(world: &World, settings: &Settings) -> u64 {
+    let light = 4 * size_of::<Rgb>() * world.mesh.elements.len();
+    let matrix = if settings.solver.needs_matrix() { FullMatrix::bytes(&world.mesh) } else { 0 };
+    light as u64 + matrix
+}
+
+/// Photons where they landed, and the tree of them.
+fn bytes_of_photons(maps: &PhotonMaps) -> u64 {
+    (2 * size_of::<Photon>() * maps.photons().len()) as u64
+}

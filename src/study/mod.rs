@@ -1,0 +1,17 @@
+//! What accuracy costs in time: ways to compute light are run on one scene, and each is held against the truth.
+
+mod attempt;
+mod bench;
+mod knob;
+mod memory;
+mod recipe;
+mod seek;
+mod sweep;
+
+pub use attempt::{CannotTry, Light, Outcome, Verdict, attempt};
+pub use bench::Bench;
+pub use knob::{Gain, Knob, Setting, Turn, gains};
+pub use memory::{Known, Memory};
+pub use recipe::{Recipe, Way};
+pub use seek::{Goal, Promise, Sought, seek};
+pub use sweep::{Measured, Progress, Study, study};

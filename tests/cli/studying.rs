@@ -1,0 +1,62 @@
+//! `lightwell study`: what accuracy costs in time.
+
+use crate::{assert_contains, folder, json, keys, number};
+use std::time::Instant;
+
+/// A line of the table, cut at its commas.
+fn cells(line: &str) -> Vec<&str> {
+    line.split(',').collect()
+}
+
+#[test]
+fn a_study_keeps_its_budget_and_its_front_is_monotonic() {
+    let folder = folder();
+    let start = Instant::now();
+    let report = json(&folder, "study empty-box -o cost --budget 15 --json");
+    let seconds = start.elapsed().as_secs_f64();
+    assert!((13.5..16.5).contains(&seconds), "{seconds}");
+    let runs = report["runs"].as_array().expect("a list");
+    let fields = [
+        "bytes",
+        "error",
+        "error_uncertainty",
+        "finished",
+        "method",
+        "noise",
+        "on_front",
+        "options",
+        "rays",
+        "run",
+        "seconds",
+    ];
+    assert!(runs.len() > 50 && keys(&runs[0]) == fields, "{report}");
+    let mut front: Vec<[f64; 2]> = runs
+        .iter()
+        .filter(|run| run["on_front"] == true)
+        .map(|run| [number(&run["seconds"]), number(&run["error"])])
+        .collect();
+    front.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    assert!(front.len() > 3, "{front:?}");
+    assert!(front.windows(2).all(|pair| pair[0][0] < pair[1][0] && pair[0][1] > pair[1][1]), "{front:?}");
+    // Noise of independent samples; the paths of a point are spread a little better than that.
+    let slope = number(&report["slopes"]["reference"]);
+    assert!((slope + 0.5).abs() < 0.1, "{slope}");
+
+    let table = std::fs::read_to_string(folder.path().join("cost/cost.csv")).expect("a table");
+    let columns = cells(table.lines().next().expect("a line")).len();
+    assert_eq!(table.lines().count(), runs.len() + 1);
+    assert!(table.lines().all(|line| cells(line).len() == columns), "{table}");
+    let chart = std::fs::read_to_string(folder.path().join("cost/cost.svg")).expect("a chart");
+    assert_contains(&chart, &["<svg", "solver time, s", "the front", "Path tracing"]);
+    let text = std::fs::read_to_string(folder.path().join("cost/report.md")).expect("a report");
+    assert_contains(&text, &["halving the element size", "doubling the photons", "## The front", "cost.svg"]);
+}
+
+#[test]
+fn a_scene_without_light_has_nothing_to_study() {
+    let folder = folder();
+    let report = json(&folder, "study ao-study -o cost --budget 2 --json");
+    assert_eq!(report["runs"].as_array().map(Vec::len), Some(0));
+    let text = std::fs::read_to_string(folder.path().join("cost/report.md")).expect("a report");
+    assert_contains(&text, &["There is no light to measure"]);
+}
