@@ -47,7 +47,7 @@ const CRATES: &[(&str, &[&str])] = &[
     ("tobj", &["scene::obj", "scene::mtl"]),
     ("earcut", &["scene"]),
     ("obvhs", &["tracer"]),
-    ("rayon", &["mesh", "tracer", "world", "methods", "accuracy", "worker"]),
+    ("rayon", &["mesh", "tracer", "world", "methods", "accuracy", "worker", "study"]),
     ("thread_priority", &["worker"]),
     ("sysinfo", &["worker"]),
     ("dirs", &["accuracy"]),

@@ -1,10 +1,14 @@
 //! The window without a graphics adapter: its panels, found by the labels that a screen reader reads, against a model
 //! made up here.
 
+#[path = "window/accuracy.rs"]
+mod accuracy;
 #[path = "window/crowds.rs"]
 mod crowds;
 #[path = "window/effects.rs"]
 mod effects;
+#[path = "window/equation.rs"]
+mod equation;
 #[path = "window/keyboard.rs"]
 mod keyboard;
 #[path = "window/looking.rs"]

@@ -29,7 +29,8 @@ pub enum Action {
     /// Picks what is at this point of the viewport, in shares of its width and height from the top left: a patch, or where
     /// photons are seen one of them or else the point of the surface.
     Pick(Vec2),
-    /// Picks the point of the surface there, where a photon may be in the way.
+    /// Picks the point of the surface there: where photons are seen, one of which may be in the way, as the point of the
+    /// estimate, and else as the second point of the rendering equation.
     PickPoint(Vec2),
     /// Forgets what is picked.
     Unpick,
@@ -37,6 +38,8 @@ pub enum Action {
     EditFilter(Option<String>),
     /// Picks the patch with this index.
     PickPatch(u32),
+    /// Picks the middle of the patch with this index as the second point of the rendering equation.
+    PickSource(u32),
     /// Saves the viewport as it is at once, under a name that is free.
     SavePictureNow,
     /// Asks the system for a file to save to, and saves a picture there.

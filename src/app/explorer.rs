@@ -3,6 +3,7 @@
 use super::action::Action;
 use super::diagrams::Diagrams;
 use super::effects::EffectFacts;
+use super::equation::EquationFacts;
 use super::file_dialogs::{FileDialogs, Outcome};
 use super::frame_clock::FrameClock;
 use super::model::{Dialog, Look, Model, PathPurpose, PictureRequest, SceneFacts, extension};
@@ -160,6 +161,8 @@ impl Explorer {
         let report = self.checks.as_ref().map(Checks::latest);
         let answer = self.inquiry.as_ref().map(Inquiry::latest);
         let settings = self.edited.unwrap_or(self.snapshot.settings);
+        let is_radiosity = ViewGroup::of(self.look.view) == ViewGroup::Radiosity;
+        let equation = EquationFacts::of(&self.snapshot).filter(|_| is_radiosity);
         let model = Model {
             phase: &self.snapshot.phase,
             scene: SceneFacts::of(&self.snapshot),
@@ -185,6 +188,8 @@ impl Explorer {
             matrix: self.diagrams.matrix(),
             item_buffer: self.diagrams.item_buffer(),
             patch: PatchFacts::of(&self.snapshot),
+            equation,
+            marks: equation.and_then(|facts| self.pane.marks(facts.equation)),
             curves: &self.snapshot.curves,
             tracks: &self.snapshot.tracks,
             truth: self.snapshot.truth.as_deref(),
@@ -211,8 +216,9 @@ impl Explorer {
             Action::ApplySettings(settings) => self.configure(settings),
             Action::Camera(movement) => self.pane.move_camera(movement),
             Action::Pick(at) => self.pick_at(at),
-            Action::PickPoint(at) => self.pick_photons(None, self.pane.spot_at(at)),
-            Action::PickPatch(patch) => self.pick(Some(patch)),
+            Action::PickPoint(at) => self.pick_point(at),
+            Action::PickPatch(patch) => self.worker.send(Command::Pick(self.pane.middle_of(patch))),
+            Action::PickSource(patch) => self.pick_source(self.pane.middle_of(patch)),
             Action::Unpick => self.unpick(),
             Action::EditFilter(draft) => self.filter_draft = draft,
             Action::SavePictureNow => {
@@ -298,21 +304,31 @@ impl Explorer {
         }
     }
 
-    fn pick(&self, patch: Option<u32>) {
-        let place = patch.zip(self.pane.shown()).map(|(patch, (world, _))| Place { world: Arc::clone(world), patch });
-        self.worker.send(Command::Pick(place));
-    }
-
     /// Picks what the view shows at a point.
     fn pick_at(&self, at: Vec2) {
         match ViewGroup::of(self.look.view) {
-            ViewGroup::Radiosity => self.pick(self.pane.patch_at(at)),
+            ViewGroup::Radiosity => self.worker.send(Command::Pick(self.pane.place_at(at))),
             ViewGroup::PhotonMap => {
                 let photon = self.pane.photon_at(at, &self.look, self.snapshot.settings.image.filter);
                 self.pick_photons(photon, self.pane.spot_at(at).filter(|_| photon.is_none()));
             }
             // What rays bring to a point is not kept.
             ViewGroup::Rays | ViewGroup::Occlusion | ViewGroup::Truth => {}
+        }
+    }
+
+    /// Picks the point of the surface that the view shows there.
+    fn pick_point(&self, at: Vec2) {
+        if ViewGroup::of(self.look.view) == ViewGroup::Radiosity {
+            self.pick_source(self.pane.place_at(at));
+        } else {
+            self.pick_photons(None, self.pane.spot_at(at));
+        }
+    }
+
+    fn pick_source(&self, place: Option<Place>) {
+        if let Some(place) = place {
+            self.worker.send(Command::PickSource(place));
         }
     }
 

@@ -43,17 +43,34 @@ pub fn area(square_metres: f64) -> String {
 
 /// Three channels in one unit, with the digits that the largest deserves: `0.725 0.710 0.680`, `12.4 9.1 0.1 W/m²`.
 pub fn rgb(value: Rgb, unit: &str) -> String {
-    let largest = f64::from(value.abs().max_element());
-    let numbers = match largest {
+    let numbers = match value {
         _ if !value.is_finite() => NO_VALUE.to_owned(),
-        0.0 => "0".to_owned(),
-        _ => {
-            let is_plain = (1e-3..1e6).contains(&largest);
-            let number = |value: f64| if is_plain { digits(value, largest) } else { scientific(value) };
-            value.to_array().map(|channel| number(channel.into())).join(" ")
-        }
+        Rgb::ZERO => "0".to_owned(),
+        _ => channels(value).join(" "),
     };
     if unit.is_empty() { numbers } else { format!("{numbers}{THIN_SPACE}{unit}") }
+}
+
+/// Three channels, each by itself, with the digits that the largest deserves.
+pub fn channels(value: Rgb) -> [String; 3] {
+    let largest = f64::from(value.abs().max_element());
+    let number = |channel: f32| match f64::from(channel) {
+        channel if !channel.is_finite() => NO_VALUE.to_owned(),
+        0.0 => "0".to_owned(),
+        channel if (1e-3..1e6).contains(&largest) => digits(channel, largest),
+        channel => scientific(channel),
+    };
+    value.to_array().map(number)
+}
+
+/// Three significant digits, or a power of ten where those would need more than two zeros: `0.707`, `12.4`, `3.1e−7`.
+pub fn figure(value: f64) -> String {
+    match value {
+        _ if !value.is_finite() => NO_VALUE.to_owned(),
+        0.0 => "0".to_owned(),
+        value if !(1e-3..1e6).contains(&value.abs()) => scientific(value),
+        value => digits(value, value.abs()),
+    }
 }
 
 /// A number with as many decimals as give `largest` three significant digits.

@@ -61,8 +61,9 @@ pub const WIREFRAME: KeyboardShortcut = key(Key::W);
 pub const SHOOTER: KeyboardShortcut = key(Key::O);
 pub const TICKS: KeyboardShortcut = key(Key::T);
 pub const UNPICK: KeyboardShortcut = key(Key::Escape);
+pub const EQUATION: KeyboardShortcut = key(Key::E);
 pub const CONVERGENCE: KeyboardShortcut = key(Key::C);
-pub const ACCURACY: KeyboardShortcut = key(Key::E);
+pub const ACCURACY: KeyboardShortcut = key(Key::P);
 pub const HARD_CASES: KeyboardShortcut = key(Key::K);
 pub const MATRIX: KeyboardShortcut = key(Key::M);
 pub const AMBIENT: KeyboardShortcut = key(Key::A);
@@ -139,6 +140,7 @@ pub const BINDINGS: &[Binding] = &[
     Binding::new(LESS_BOUNCES, "View of bounces: one less", |model| bounce(model, -1)).repeating(),
     Binding::new(MORE_BOUNCES, "View of bounces: one more", |model| bounce(model, 1)).repeating(),
     Binding::new(UNPICK, "Forget what is picked", |model| model.has_pick().then_some(Action::Unpick)),
+    Binding::new(EQUATION, "Open or close the rendering equation", |model| lower(model, LowerPanel::Equation)),
     Binding::new(CONVERGENCE, "Open or close the convergence chart", |model| lower(model, LowerPanel::Convergence)),
     Binding::new(ACCURACY, "Open or close the chart of errors over time", |model| lower(model, LowerPanel::Accuracy)),
     Binding::new(HARD_CASES, "Open or close the hard cases", |model| lower(model, LowerPanel::HardCases)),
@@ -183,6 +185,7 @@ pub fn of_view(view: View) -> KeyboardShortcut {
 /// The key of a panel below the viewport.
 pub fn of_lower_panel(panel: LowerPanel) -> KeyboardShortcut {
     match panel {
+        LowerPanel::Equation => EQUATION,
         LowerPanel::Convergence => CONVERGENCE,
         LowerPanel::Accuracy => ACCURACY,
         LowerPanel::HardCases => HARD_CASES,

@@ -3,6 +3,8 @@
 use super::chart::Chart;
 use super::diagrams::MatrixTexture;
 use super::effects::EffectFacts;
+use super::equation::EquationFacts;
+use super::marks::Marks;
 use super::patch::PatchFacts;
 use super::wish::Wish;
 use crate::accuracy::Truth;
@@ -63,6 +65,10 @@ pub struct Model<'a> {
     pub item_buffer: Option<&'a TextureHandle>,
     /// The picked patch, if one is.
     pub patch: Option<PatchFacts<'a>>,
+    /// Where the light at the picked point comes from, in views of radiosity.
+    pub equation: Option<EquationFacts<'a>>,
+    /// The points of it, on the screen.
+    pub marks: Option<Marks>,
     /// How the runs on this scene went, the one under way last.
     pub curves: &'a [Arc<Curve>],
     /// How far off they were, in the order in which they began.
@@ -256,17 +262,19 @@ impl Default for Look {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum LowerPanel {
+    Equation,
     Convergence,
     Accuracy,
     HardCases,
 }
 
 impl Choice for LowerPanel {
-    const ALL: &'static [Self] = &[Self::Convergence, Self::Accuracy, Self::HardCases];
+    const ALL: &'static [Self] = &[Self::Equation, Self::Convergence, Self::Accuracy, Self::HardCases];
     const KIND: &'static str = "panel";
 
     fn name(self) -> &'static str {
         match self {
+            Self::Equation => "equation",
             Self::Convergence => "convergence",
             Self::Accuracy => "accuracy",
             Self::HardCases => "hard-cases",
@@ -275,6 +283,7 @@ impl Choice for LowerPanel {
 
     fn label(self) -> &'static str {
         match self {
+            Self::Equation => "Equation",
             Self::Convergence => "Convergence",
             Self::Accuracy => "Accuracy",
             Self::HardCases => "Hard cases",
@@ -283,6 +292,9 @@ impl Choice for LowerPanel {
 
     fn meaning(self) -> &'static str {
         match self {
+            Self::Equation => {
+                "The rendering equation at a point that you click, with its numbers, and where its light comes from"
+            }
             Self::Convergence => "How fast each run on this scene came near its end, on one chart",
             Self::Accuracy => {
                 "How far off each run on this scene was after how much time, against a path-traced reference"

@@ -1,6 +1,6 @@
 //! What is known of one patch.
 
-use crate::math::rgb::{Rgb, Rgb64};
+use crate::math::rgb::Rgb;
 use crate::mesh::Patch;
 use crate::solution::{Picked, Solution};
 use crate::worker::Snapshot;
@@ -60,11 +60,7 @@ impl<'a> PatchFacts<'a> {
 
 impl PatchLight {
     fn of(patch: &Patch, world: &World, solution: &Solution) -> Self {
-        let mean = |values: &[Rgb]| {
-            let elements = patch.elements.start as usize..patch.elements.end as usize;
-            let flux: Rgb64 = elements.map(|e| world.mesh.elements[e].area * values[e].as_dvec3()).sum();
-            if patch.area > 0.0 { (flux / patch.area).as_vec3() } else { Rgb::ZERO }
-        };
+        let mean = |values: &[Rgb]| world.mesh.patch_mean(patch, values).as_vec3();
         let light = &solution.light;
         Self { radiosity: mean(&light.radiosity), irradiance: mean(&light.irradiance), unshot: mean(&light.unshot) }
     }

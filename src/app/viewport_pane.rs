@@ -1,12 +1,13 @@
 //! The scene in the window: its camera, and its way onto the graphics device.
 
 use super::action::CameraMove;
+use super::marks::Marks;
 use super::model::Look;
 use crate::camera::{Camera, Flight};
 use crate::cli::picture::subject;
-use crate::solution::PathFilter;
+use crate::solution::{Equation, PathFilter};
 use crate::viewport::{Frame, Gpu, Light, Viewport, automatic_exposure, pick_patch, pick_photon, pick_point};
-use crate::worker::{Sight, Snapshot, Spot};
+use crate::worker::{Place, Sight, Snapshot, Spot};
 use crate::world::World;
 use eframe::egui_wgpu::{Callback, CallbackResources, CallbackTrait, RenderState, ScreenDescriptor};
 use eframe::{egui_wgpu, wgpu};
@@ -130,10 +131,24 @@ impl ViewportPane {
         })
     }
 
-    /// The patch that is seen at a point, in shares of the picture's width and height from the top left.
-    pub fn patch_at(&self, at: Vec2) -> Option<u32> {
+    /// The place on a patch that is seen at a point, in shares of the picture's width and height from the top left.
+    pub fn place_at(&self, at: Vec2) -> Option<Place> {
         let (world, camera) = (self.world.as_ref()?, self.camera.as_ref()?);
-        pick_patch(world, camera, self.pixel(at), self.size)
+        let patch = pick_patch(world, camera, self.pixel(at), self.size)?;
+        let (point, _) = pick_point(world, camera, self.pixel(at), self.size)?;
+        Some(Place { world: Arc::clone(world), patch, point })
+    }
+
+    /// The middle of the patch with this index.
+    pub fn middle_of(&self, patch: u32) -> Option<Place> {
+        let world = self.world.as_ref()?;
+        let point = world.mesh.patches.get(patch as usize)?.center.into();
+        Some(Place { world: Arc::clone(world), patch, point })
+    }
+
+    /// The points of an equation, as they are seen now.
+    pub fn marks(&self, equation: &Equation) -> Option<Marks> {
+        Some(Marks::of(equation, self.camera.as_ref()?, self.size))
     }
 
     /// The photon that is seen nearest to a point, a few pixels away at most.

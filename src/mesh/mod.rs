@@ -16,7 +16,7 @@ pub use locate::Location;
 pub use region::{Region, Sampler};
 pub use subdivide::{element_size_for, estimated_elements, subdivide};
 
-use crate::math::rgb::Rgb64;
+use crate::math::rgb::{Rgb, Rgb64};
 use glam::{Vec3, Vec3A};
 use std::ops::Range;
 
@@ -128,6 +128,13 @@ impl Mesh {
             if patch.area > 0.0 { sum / patch.area } else { Rgb64::ZERO }
         };
         self.patches.iter().map(mean).collect()
+    }
+
+    /// Mean over the elements of one patch, by exposed area; 0 where nothing is exposed. `values` has one entry an element.
+    pub fn patch_mean(&self, patch: &Patch, values: &[Rgb]) -> Rgb64 {
+        let range = patch.elements.start as usize..patch.elements.end as usize;
+        let sum: Rgb64 = range.map(|index| self.elements[index].area * values[index].as_dvec3()).sum();
+        if patch.area > 0.0 { sum / patch.area } else { Rgb64::ZERO }
     }
 
     /// The meshed side of a polygon; `None` where light cannot reach it.

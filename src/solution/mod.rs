@@ -1,6 +1,7 @@
 //! What a method hands out: light per element, its ledger of energy, and what it cost.
 
 mod contrast;
+mod equation;
 mod exchange;
 mod image;
 mod occlusion;
@@ -9,6 +10,7 @@ mod photons;
 mod probe;
 
 pub use contrast::Contrast;
+pub use equation::{Balance, Contribution, Equation, LightSource, Visibility};
 pub use exchange::{FormFactorMatrix, ItemBuffer, Picked, Zero};
 pub use image::{CameraImage, CameraView};
 pub use occlusion::VertexShares;

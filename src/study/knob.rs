@@ -248,3 +248,57 @@ fn only_difference(one: &Recipe, other: &Recipe) -> Option<(Knob, [Setting; 2])>
     let ((knob, before), (other_knob, after)) = differences.next()?;
     (differences.next().is_none() && knob == other_knob).then_some((*knob, [*before, *after]))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::accuracy::Error;
+    use crate::mesh::MeshSettings;
+    use crate::methods::{FormFactorMethod, Settings};
+
+    fn measured(way: Way, settings: Settings, seconds: f64, rms: f64) -> Measured {
+        Measured {
+            run: 0,
+            recipe: Recipe { way, settings },
+            is_finished: true,
+            seconds,
+            all_seconds: seconds,
+            rays: 0,
+            bytes: 0,
+            error: Error { rms, ..Error::default() },
+        }
+    }
+
+    fn with_elements(size: f32) -> Settings {
+        Settings { mesh: MeshSettings { element_size: Some(size), ..MeshSettings::default() }, ..Settings::default() }
+    }
+
+    #[test]
+    fn halving_the_element_size_is_told_as_the_mean_of_all_such_turns() {
+        let runs = [(0.4, 1.0, 0.8), (0.2, 4.0, 0.4), (0.1, 36.0, 0.1)];
+        let runs = runs.map(|(size, seconds, rms)| measured(Way::Radiosity, with_elements(size), seconds, rms));
+        let gains = gains(&runs.iter().collect::<Vec<_>>());
+        // By 4 and 9 times longer, by a half and a quarter of the error; turns by four are not told.
+        let [gain] = &gains[..] else { panic!("{gains:?}") };
+        assert_eq!((gain.knob, gain.by), (Knob::Element, Some("polygon")));
+        assert!((gain.time - 6.0).abs() < 1e-9 && (gain.error - 0.125_f64.sqrt()).abs() < 1e-9, "{gain:?}");
+        let Turn::Times { factor, from, to } = gain.turn else { panic!("{gain:?}") };
+        assert!(is_near(factor, 0.5) && is_near(from, 0.4) && is_near(to, 0.1), "{gain:?}");
+    }
+
+    #[test]
+    fn another_choice_is_held_against_the_default_and_two_changes_tell_nothing() {
+        let default = with_elements(0.1);
+        let hemicube = Settings { form_factor: FormFactorMethod::Hemicube, ..default };
+        let other = Settings { unshot_limit: 0.5, ..hemicube };
+        let runs = [(default, 1.0, 0.1), (hemicube, 3.0, 0.2), (other, 9.0, 0.9)];
+        let runs = runs.map(|(settings, seconds, rms)| measured(Way::Radiosity, settings, seconds, rms));
+        let gains = gains(&runs.iter().collect::<Vec<_>>());
+        let turns: Vec<Turn> = gains.iter().map(|gain| gain.turn).collect();
+        // The unshot share went down from a half of the light to a thousandth.
+        let [Turn::Choice { from: "polygon", to: "hemicube" }, Turn::Times { factor, .. }] = turns[..] else {
+            panic!("{turns:?}")
+        };
+        assert!(is_near(factor, 0.002), "{factor}");
+    }
+}

@@ -54,6 +54,8 @@ pub struct Study {
     /// Recipes that could not be followed, with the reason.
     pub refused: Vec<(Recipe, String)>,
     pub elapsed: Duration,
+    /// Threads that all ran on.
+    pub threads: usize,
 }
 
 /// How far a study is.
@@ -98,6 +100,7 @@ pub fn study(
     let mut study = judged(&outcomes, bench.reference.truth());
     study.refused = refused;
     study.elapsed = start.elapsed();
+    study.threads = rayon::current_num_threads();
     study
 }
 

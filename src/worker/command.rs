@@ -26,8 +26,11 @@ pub enum Command {
     Step(u64),
     /// Starts over from the emitters, paused.
     Reset,
-    /// Computes what this patch sees, or forgets about it. Without effect if another world is on show by then.
+    /// Computes what the patch at this place sees and where its light comes from, or forgets about it and the second place.
+    /// Without effect if another world is on show by then.
     Pick(Option<Place>),
+    /// Says what this second place sends to the first one. Without effect if another world is on show by then.
+    PickSource(Place),
     /// Traces the way of a photon again, or forgets about it. Other photons may be on show by then: one that is not among
     /// them has no way.
     PickPhoton(Option<Photon>),
@@ -104,23 +107,25 @@ pub struct Spot {
     pub normal: Vec3,
 }
 
-/// A patch of a world.
+/// A point of a patch of a world.
 #[derive(Clone)]
 pub struct Place {
     pub world: Arc<World>,
     /// Index among the patches of its mesh.
     pub patch: u32,
+    /// On that patch, m.
+    pub point: Vec3,
 }
 
 impl PartialEq for Place {
     fn eq(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.world, &other.world) && self.patch == other.patch
+        Arc::ptr_eq(&self.world, &other.world) && (self.patch, self.point) == (other.patch, other.point)
     }
 }
 
 impl fmt::Debug for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "patch {} of {}", self.patch, self.world.scene.name)
+        write!(f, "{} on patch {} of {}", self.point, self.patch, self.world.scene.name)
     }
 }
 

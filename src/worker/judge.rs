@@ -9,10 +9,12 @@ use std::sync::Arc;
 
 /// The error of the truth that is wanted while nothing has been held against it.
 const FIRST_FLOOR: f64 = 0.01;
+/// An error as the first one of a run may be.
+const FIRST_ERROR: f64 = 0.2;
 /// Share of the time that methods work which goes into measuring them meanwhile.
 const SHARE: f64 = 0.03;
-/// Seconds of it that can be saved up.
-const MOST_CREDIT: f64 = 0.02;
+/// Seconds that may be taken in advance.
+const ADVANCE: f64 = 0.02;
 /// What is known is kept on disk each time that it has doubled, from so many paths on.
 const WORTH_KEEPING: u64 = 512;
 
@@ -22,12 +24,12 @@ pub struct Judge {
     reference: Option<Reference>,
     cache: Option<Cache>,
     pub tracks: Tracks,
-    /// Seconds that measuring may take from methods that are at work.
-    credit: f64,
+    /// Seconds that measuring has taken from methods at work and not made good.
+    owed: f64,
     /// Paths of what is kept on disk.
     kept: u64,
     /// Whether it is given up in this scene.
-    pub has_crashed: bool,
+    pub is_given_up: bool,
 }
 
 impl Judge {
@@ -35,7 +37,7 @@ impl Judge {
     /// no truth.
     pub fn turn_to(&mut self, reference: Option<(Reference, Option<Cache>)>) {
         let Some((reference, cache)) = reference else {
-            self.has_crashed = true;
+            self.is_given_up = true;
             return;
         };
         self.kept = reference.truth().paths;
@@ -59,9 +61,16 @@ impl Judge {
 
     /// Whether the truth is not known well enough for what is held against it.
     pub fn wants_more(&self) -> bool {
-        let Some(truth) = self.truth() else { return !self.has_crashed };
+        let Some(truth) = self.truth() else { return !self.is_given_up };
         let is_enough = self.tracks.smallest().map_or(truth.floor <= FIRST_FLOOR, |error| truth.is_enough_for(&error));
         !truth.is_dark() && !is_enough
+    }
+
+    /// Whether the truth is known too little to say anything, so that it cannot wait until methods rest.
+    pub fn needs_more(&self) -> bool {
+        let Some(truth) = self.truth() else { return !self.is_given_up };
+        let error = self.tracks.smallest().map_or(FIRST_ERROR, |error| error.rms);
+        !truth.is_dark() && truth.floor > error
     }
 
     /// Makes the truth better known.
@@ -85,17 +94,17 @@ impl Judge {
 
     /// Whether measuring may go on although methods are at work.
     pub fn may_interrupt(&self) -> bool {
-        self.credit > 0.0
+        self.owed < ADVANCE
     }
 
     /// Takes note of seconds that methods have worked.
     pub fn earn(&mut self, seconds: f64) {
-        self.credit = (self.credit + SHARE * seconds).min(MOST_CREDIT);
+        self.owed = (self.owed - SHARE * seconds).max(0.0);
     }
 
     /// Takes note of seconds that measuring has taken from methods.
     pub fn spend(&mut self, seconds: f64) {
-        self.credit -= seconds;
+        self.owed += seconds;
     }
 }
 

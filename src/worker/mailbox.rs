@@ -30,7 +30,11 @@ impl Queue {
     fn is_urgent(&mut self, command: &Command) -> bool {
         match command {
             // More steps can wait for the one under way, and what is picked is looked into between steps.
-            Command::Step(_) | Command::Pick(_) | Command::PickPhoton(_) | Command::Gather(_) => false,
+            Command::Step(_)
+            | Command::Pick(_)
+            | Command::PickSource(_)
+            | Command::PickPhoton(_)
+            | Command::Gather(_) => false,
             // A camera that moves round meshes or photons leaves the solver nothing to do.
             Command::Look(sight) => {
                 let old = self.sight.replace(*sight);
@@ -141,6 +145,7 @@ fn merge(commands: &mut VecDeque<Command>, new: Command) {
         }
         Command::Reset => drop_since_look(commands, drives_light),
         Command::Pick(_) => commands.retain(|old| !matches!(old, Command::Pick(_))),
+        Command::PickSource(_) => commands.retain(|old| !matches!(old, Command::PickSource(_))),
         Command::PickPhoton(_) => commands.retain(|old| !matches!(old, Command::PickPhoton(_))),
         Command::Gather(_) => commands.retain(|old| !matches!(old, Command::Gather(_))),
         Command::Look(_) => {

@@ -31,7 +31,7 @@ pub use workshop::{CameraShot, ImageMethod, Lights, OcclusionMethod, PhotonMetho
 use crate::accuracy::{Cache, Truth};
 use crate::effects::Plan;
 use crate::methods::Settings;
-use crate::solution::{CameraImage, Gathered, PhotonSolution, PhotonTrail, Picked, Solution, VertexShares};
+use crate::solution::{CameraImage, Equation, Gathered, PhotonSolution, PhotonTrail, Picked, Solution, VertexShares};
 use crate::world::World;
 use mailbox::Mailbox;
 use solver::Solver;
@@ -51,6 +51,8 @@ pub struct Snapshot {
     pub solution: Option<Arc<Solution>>,
     /// What the picked patch sees; belongs to `world`.
     pub picked: Option<Arc<Picked>>,
+    /// Where the light at the picked point comes from; belongs to `world`. It may be a little older than `solution`.
+    pub equation: Option<Arc<Equation>>,
     /// What photons have brought; belongs to `world`.
     pub photons: Option<Arc<PhotonSolution>>,
     /// How much ambient light arrives at each vertex; belongs to `world`.

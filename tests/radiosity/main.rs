@@ -1,9 +1,12 @@
 //! Radiosity against closed forms, against itself by other ways, and against its own books.
 
 mod agreement;
+mod equation;
 mod full_matrix;
 mod furnace;
 mod progressive;
+#[path = "../common/quads.rs"]
+mod quads;
 mod relaxation;
 
 use glam::Vec3;

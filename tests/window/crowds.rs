@@ -1,5 +1,6 @@
 //! Windows with as much in them as can be, and where their texts are.
 
+use super::equation::equation;
 use super::stage::{ADAPTER, Stage, checks, curves, finding, gathered, image, patch, photons, solution, trail};
 use egui::{Rect, Vec2};
 use egui_kittest::Harness;
@@ -39,6 +40,7 @@ pub fn crowds() -> Vec<Stage> {
     let settings = Settings { solver: Solver::GaussSeidel, form_factor: FormFactorMethod::Rays, ..Settings::default() };
     vec![
         crowded(),
+        Stage { lower: Some(LowerPanel::Equation), equation: Some(equation()), ..crowded() },
         Stage { lower: Some(LowerPanel::Convergence), curves: curves(), ..crowded() },
         Stage { lower: Some(LowerPanel::HardCases), checks: Some(checks(false)), ..crowded() },
         Stage { solution: Some(building), look, settings, ..Stage::default() },

@@ -174,7 +174,7 @@ fn photons_are_drawn_as_the_side_panel_says() {
 }
 
 #[test]
-fn a_click_with_shift_picks_a_point_among_photons() {
+fn a_click_with_shift_picks_a_point() {
     let click = |stage: Stage| {
         let mut harness = stage.small();
         harness.get_by_label("Viewport").click_modifiers(Modifiers::SHIFT);
@@ -182,7 +182,9 @@ fn a_click_with_shift_picks_a_point_among_photons() {
         std::mem::take(&mut harness.state_mut().actions)
     };
     assert!(matches!(click(photon_stage())[..], [Action::PickPoint(_)]));
-    assert!(matches!(click(Stage::default())[..], [Action::Pick(_)]));
+    assert!(matches!(click(Stage::default())[..], [Action::PickPoint(_)]), "the second one of the equation");
+    let traced = || showing(View::Camera(CameraView::RayTraced));
+    assert!(matches!(click(traced())[..], [Action::Pick(_)]));
 }
 
 #[test]

@@ -3,12 +3,16 @@
 use egui::{TextureHandle, Vec2};
 use egui_kittest::Harness;
 use glam::Vec3;
+use lightwell::accuracy::{Error, Truth};
 use lightwell::app::action::Action;
 use lightwell::app::chart::Chart;
 use lightwell::app::diagrams::MatrixTexture;
 use lightwell::app::effects::EffectFacts;
+use lightwell::app::equation::EquationFacts;
+use lightwell::app::marks::Marks;
 use lightwell::app::model::{Dialog, FrameTime, Look, LowerPanel, Model, Notice, SceneFacts, Theme};
 use lightwell::app::patch::{PatchFacts, PatchLight};
+use lightwell::app::wish::Wish;
 use lightwell::app::{panels, theme};
 use lightwell::camera::Camera;
 use lightwell::cancel::Cancel;
@@ -20,13 +24,14 @@ use lightwell::mesh::MeshSettings;
 use lightwell::methods::{Settings, Solver};
 use lightwell::scene::{Finding, FindingKind, Scene, Severity, Viewpoint};
 use lightwell::solution::{
-    CameraImage, CameraView, Closure, Counters, Energy, Gathered, PhotonCounters, PhotonEnergy, PhotonSolution,
-    PhotonTrail, Progress, Scattering, Solution, TrailPlace, VertexShares,
+    CameraImage, CameraView, Closure, Counters, Energy, Equation, Gathered, PhotonCounters, PhotonEnergy,
+    PhotonSolution, PhotonTrail, Progress, Scattering, Solution, TrailPlace, VertexShares,
 };
+use lightwell::study::Answer;
 use lightwell::viewport::colour_map::ColourMap;
 use lightwell::viewport::diagram::Swatch;
 use lightwell::viewport::{Legend, View};
-use lightwell::worker::{CheckReport, Curve, CurvePoint, Entry, Phase};
+use lightwell::worker::{CheckReport, Curve, CurvePoint, Entry, LightKind, Phase, Track, TrackPoint};
 use lightwell::world::World;
 use std::path::PathBuf;
 use std::sync::{Arc, LazyLock};
@@ -59,19 +64,27 @@ pub struct Stage {
     pub pictures: Option<(MatrixTexture, TextureHandle)>,
     pub checks: Option<CheckReport>,
     pub patch: Option<PatchFacts<'static>>,
+    /// In [`WORLD`].
+    pub equation: Option<Equation>,
     pub curves: Vec<Arc<Curve>>,
+    pub tracks: Vec<Arc<Track>>,
+    pub truth: Option<Truth>,
+    pub wish: Wish,
+    pub answer: Option<Answer>,
     pub notices: Vec<Notice>,
     pub dialog: Option<Dialog>,
     pub recent: Vec<PathBuf>,
     pub actions: Vec<Action>,
 }
 
-/// Of a scene that is all diffuse and open.
-static PLAN: LazyLock<Plan> = LazyLock::new(|| {
+/// A scene that is all diffuse and open.
+pub static WORLD: LazyLock<Arc<World>> = LazyLock::new(|| {
     let scene = Scene::open("cornell-box").expect("a built-in scene");
     let mesh = MeshSettings { element_size: Some(0.2), ..MeshSettings::default() };
-    plan(&World::build(scene, &mesh, &Cancel::default()).expect("a world"))
+    Arc::new(World::build(scene, &mesh, &Cancel::default()).expect("a world"))
 });
+
+static PLAN: LazyLock<Plan> = LazyLock::new(|| plan(&WORLD));
 
 /// Radiosity with shadows.
 pub fn effects() -> Vec<Entry> {
@@ -112,7 +125,12 @@ impl Default for Stage {
             pictures: None,
             checks: None,
             patch: None,
+            equation: None,
             curves: Vec::new(),
+            tracks: Vec::new(),
+            truth: None,
+            wish: Wish::default(),
+            answer: None,
             notices: Vec::new(),
             dialog: None,
             recent: vec![PathBuf::from("/scenes/attic.obj")],
@@ -170,7 +188,16 @@ impl Stage {
             item_buffer: self.pictures.as_ref().map(|(_, item_buffer)| item_buffer),
             checks: self.checks.as_ref(),
             patch: self.patch,
+            equation: self.equation.as_ref().map(|equation| EquationFacts { equation, world: &WORLD }),
+            marks: self
+                .equation
+                .as_ref()
+                .map(|equation| Marks::of(equation, &Camera::new(&WORLD.viewpoint, &WORLD.bounds), [952, 646])),
             curves: &self.curves,
+            tracks: &self.tracks,
+            truth: self.truth.as_ref(),
+            wish: self.wish,
+            inquiry: self.answer.as_ref(),
             recent: &self.recent,
             notices: &self.notices,
             dialog: self.dialog.as_ref(),
@@ -293,6 +320,21 @@ pub fn curves() -> Vec<Arc<Curve>> {
         Arc::new(Curve { number: i + 1, settings, points: (0..10).map(point).collect() })
     };
     (0_u32..).zip(solvers).map(curve).collect()
+}
+
+/// A run of radiosity that levels off, and one of photons whose noise falls with the root of time.
+pub fn tracks() -> Vec<Arc<Track>> {
+    let track = |number, kind, error: fn(f64) -> f64| {
+        let point = |k: i32| {
+            let seconds = 0.01 * 2_f64.powi(k);
+            TrackPoint { seconds, error: Error { rms: error(seconds), uncertainty: 0.001, floor: 0.004, noise: None } }
+        };
+        Arc::new(Track { number, kind, settings: Settings::default(), points: (0..9).map(point).collect() })
+    };
+    vec![
+        track(1, LightKind::Radiosity, |seconds| 0.03 + 0.01 / seconds),
+        track(2, LightKind::Photons, |seconds| 0.1 / seconds.sqrt()),
+    ]
 }
 
 /// Three rows of the first case: one of each verdict.

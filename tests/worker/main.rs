@@ -2,7 +2,9 @@
 
 mod commands;
 mod fake;
+mod inquiry;
 mod interruption;
+mod judging;
 mod lights;
 mod occlusion;
 mod pictures;

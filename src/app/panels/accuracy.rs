@@ -29,52 +29,35 @@ const LAST: f64 = 10.0;
 /// How long a study from the window takes.
 const STUDY: Duration = Duration::from_secs(60);
 
-/// In a row: what is wanted, and the buttons that look for it.
-pub fn controls(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
+/// What is wanted, and the buttons that look for it.
+fn controls(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     let Wish { mut error, mut seconds } = model.wish;
-    ui.label("Error up to");
-    let percent = DragValue::from_get_set(|new| {
-        error = new.map_or(error, |percent| percent / 100.0);
-        100.0 * error
+    ui.horizontal(|ui| {
+        ui.label("Error up to");
+        let percent = DragValue::from_get_set(|new| {
+            error = new.map_or(error, |percent| percent / 100.0);
+            100.0 * error
+        });
+        ui.add(percent.range(0.1..=100.0).speed(0.1).suffix(" %"))
+            .on_hover_text("The error that is wanted, as a share of the mean irradiance: the horizontal line");
+        let hover = "Look for the cheapest method and settings with at most this error, and run them";
+        ask(ui, model, "Reach it", hover, Question::Error(error), actions);
+        let hover = "Try all ways on this scene for a minute, and draw what each costs";
+        ask(ui, model, "Study", hover, Question::Study(STUDY), actions);
     });
-    ui.add(percent.range(0.1..=100.0).speed(0.1).suffix(" %"))
-        .on_hover_text("The error that is wanted, as a share of the mean irradiance: the horizontal line");
-    ask(
-        ui,
-        model,
-        "Reach it",
-        "Look for the cheapest method and settings with at most this error",
-        Question::Error(error),
-        actions,
-    );
-    ui.add_space(2.0 * UNIT);
-    ui.label("Time up to");
-    ui.add(DragValue::new(&mut seconds).range(0.1..=3600.0).speed(0.1).suffix(" s"))
-        .on_hover_text("The time allowed: the vertical line");
-    let time = Duration::from_secs_f64(seconds);
-    ask(
-        ui,
-        model,
-        "Use it",
-        "Look for the most accurate method and settings in this time",
-        Question::Time(time),
-        actions,
-    );
-    ui.add_space(2.0 * UNIT);
-    ask(
-        ui,
-        model,
-        "Study",
-        "Try all ways on this scene for a minute, and draw what each costs",
-        Question::Study(STUDY),
-        actions,
-    );
+    ui.horizontal(|ui| {
+        ui.label("Time up to");
+        ui.add(DragValue::new(&mut seconds).range(0.1..=3600.0).speed(0.1).suffix(" s"))
+            .on_hover_text("The time allowed: the vertical line");
+        let hover = "Look for the most accurate method and settings in this time, and run them";
+        ask(ui, model, "Use it", hover, Question::Time(Duration::from_secs_f64(seconds)), actions);
+    });
     let wish = Wish { error, seconds };
     if wish != model.wish {
         actions.push(Action::SetWish(wish));
     }
     if let Some(answer) = model.inquiry {
-        tell(ui, answer, actions);
+        ui.horizontal(|ui| tell(ui, answer, actions));
     }
 }
 
@@ -120,7 +103,10 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     let height = ui.available_height();
     ui.horizontal_top(|ui| {
         plot(ui, model, &descriptions, vec2(ui.available_width() - LEGEND_WIDTH - 3.0 * UNIT, height), actions);
-        ui.vertical(|ui| legend(ui, model, &descriptions, actions));
+        ui.vertical(|ui| {
+            controls(ui, model, actions);
+            legend(ui, model, &descriptions, actions);
+        });
     });
 }
 

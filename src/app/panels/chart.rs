@@ -21,22 +21,29 @@ const LEAST_STEPS: f64 = 10.0;
 /// Width of the legend.
 const LEGEND_WIDTH: f32 = 52.0 * UNIT;
 
-pub fn show(ui: &mut Ui, model: &Model) {
+pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     let descriptions = descriptions(model.curves);
     let height = ui.available_height();
     ui.horizontal_top(|ui| {
         plot(ui, model, &descriptions, vec2(ui.available_width() - LEGEND_WIDTH - 3.0 * UNIT, height));
-        ui.vertical(|ui| legend(ui, model, &descriptions));
+        ui.vertical(|ui| {
+            axes(ui, model.chart, actions);
+            legend(ui, model, &descriptions);
+        });
     });
 }
 
-/// What is drawn over what, to be chosen in a row.
-pub fn axes(ui: &mut Ui, chart: Chart, actions: &mut Vec<Action>) {
-    let (rest, response) = combo(ui, 48.0 * UNIT, chart.rest);
+/// What is drawn over what.
+fn axes(ui: &mut Ui, chart: Chart, actions: &mut Vec<Action>) {
+    let (rest, response) = combo(ui, LEGEND_WIDTH - UNIT, chart.rest);
     response.accessible_name("What is left");
-    ui.label("over");
-    let (work, response) = combo(ui, 34.0 * UNIT, chart.work);
-    response.accessible_name("Work");
+    let work = ui.horizontal(|ui| {
+        ui.label("over");
+        let (work, response) = combo(ui, ui.available_width() - UNIT, chart.work);
+        response.accessible_name("Work");
+        work
+    });
+    let work = work.inner;
     let chosen = Chart { rest: rest.unwrap_or(chart.rest), work: work.unwrap_or(chart.work) };
     if chosen != chart {
         actions.push(Action::SetChart(chosen));

@@ -148,7 +148,7 @@ fn keys(ui: &mut Ui, actions: &mut Vec<Action>) {
         ("Shift+drag or right drag", "Move sideways"),
         ("Wheel", "Move closer or away"),
         ("Click", "Pick a patch, or a photon where photons are seen"),
-        ("Shift+click", "Pick a point, to see the photons of its estimate"),
+        ("Shift+click", "Pick a second point, or one among photons"),
         ("Double click", "Fit the scene into the view"),
     ];
     two_columns(ui, "mouse", &mouse.map(|(gesture, purpose)| (gesture.to_owned(), purpose)));
@@ -168,7 +168,7 @@ fn two_columns(ui: &mut Ui, id: &str, rows: &[(String, &'static str)]) {
 
 fn table(ui: &mut Ui, id: impl egui::AsIdSalt, rows: &[(String, &'static str)]) {
     ui.spacing_mut().interact_size.y = 4.0 * UNIT;
-    Grid::new(id).num_columns(2).spacing([6.0 * UNIT, UNIT]).show(ui, |ui| {
+    Grid::new(id).num_columns(2).spacing([6.0 * UNIT, 0.5 * UNIT]).show(ui, |ui| {
         for (left, right) in rows {
             ui.label(RichText::new(left).strong());
             ui.label(*right);

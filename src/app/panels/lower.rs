@@ -1,7 +1,7 @@
 //! What can be opened below the viewport: its tabs are always there, and a click on the open one closes it.
 
 use super::widgets::with_key;
-use super::{accuracy, chart, hard_cases};
+use super::{accuracy, chart, equation, hard_cases};
 use crate::app::action::Action;
 use crate::app::keys;
 use crate::app::model::{LowerPanel, Model};
@@ -28,13 +28,14 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
             tabs(ui, model, actions);
             ui.add_space(2.0 * UNIT);
             match open {
-                LowerPanel::Convergence => chart::axes(ui, model.chart, actions),
-                LowerPanel::Accuracy => accuracy::controls(ui, model, actions),
+                LowerPanel::Equation => equation::head(ui, model),
+                LowerPanel::Convergence | LowerPanel::Accuracy => {}
                 LowerPanel::HardCases => hard_cases::controls(ui, model, actions),
             }
         });
         match open {
-            LowerPanel::Convergence => chart::show(ui, model),
+            LowerPanel::Equation => equation::show(ui, model, actions),
+            LowerPanel::Convergence => chart::show(ui, model, actions),
             LowerPanel::Accuracy => accuracy::show(ui, model, actions),
             LowerPanel::HardCases => hard_cases::show(ui, model, actions),
         }

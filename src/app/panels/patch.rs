@@ -4,11 +4,12 @@ use super::widgets::{figure, section, with_key};
 use crate::app::action::Action;
 use crate::app::format;
 use crate::app::keys;
-use crate::app::model::{Dialog, Model};
+use crate::app::model::{Dialog, LowerPanel, Model};
 use crate::app::patch::PatchFacts;
 use crate::app::theme::UNIT;
+use crate::choice::Choice;
 use crate::math::rgb::Rgb;
-use egui::{Image, Ui, vec2};
+use egui::{Button, Image, Ui, vec2};
 
 /// Edge of the picture of its item buffer.
 const SIDE: f32 = 48.0 * UNIT;
@@ -21,7 +22,7 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
         light(ui, &patch);
         form_factors(ui, &patch);
         ui.add_space(UNIT);
-        buttons(ui, actions);
+        buttons(ui, model, actions);
         item_buffer(ui, model);
     });
 }
@@ -33,8 +34,13 @@ fn item_buffer(ui: &mut Ui, model: &Model) {
     ui.add(image.alt_text("Item buffer")).on_hover_text("What it sees through its hemicube, unfolded");
 }
 
-fn buttons(ui: &mut Ui, actions: &mut Vec<Action>) {
+fn buttons(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
     ui.horizontal(|ui| {
+        let is_open = model.lower == Some(LowerPanel::Equation);
+        let hover = with_key(ui, LowerPanel::Equation.meaning(), Some(&keys::EQUATION));
+        if ui.add(Button::new("Its light").selected(is_open)).on_hover_text(hover).clicked() {
+            actions.push(Action::ShowLowerPanel((!is_open).then_some(LowerPanel::Equation)));
+        }
         if ui.button("Enlarge").on_hover_text("Shows the item buffer in a dialog").clicked() {
             actions.push(Action::ShowDialog(Dialog::ItemBuffer));
         }

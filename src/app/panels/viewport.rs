@@ -1,5 +1,6 @@
 //! The picture of the light, the camera under the mouse, and what to show where there is no picture.
 
+use super::marks;
 use crate::app::action::{Action, CameraMove};
 use crate::app::model::Model;
 use crate::app::theme::UNIT;
@@ -8,8 +9,8 @@ use crate::scene::BUILTINS;
 use crate::worker::Phase;
 use egui::accesskit::Role;
 use egui::{
-    Align, Align2, Area, Button, Color32, Frame, Id, Layout, Order, PointerButton, Rect, Response, RichText,
-    ScrollArea, Sense, Spinner, TextStyle, Ui, UiBuilder, WidgetInfo, vec2,
+    Align, Align2, Area, Button, Color32, Event, Frame, Id, InputState, Layout, Order, PointerButton, Rect, Response,
+    RichText, ScrollArea, Sense, Spinner, TextStyle, Ui, UiBuilder, WidgetInfo, vec2,
 };
 
 /// Zoom for a wheel's notch, which egui reports as some 40 points.
@@ -23,6 +24,9 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>, paint: impl F
     ui.painter().rect_filled(rect, 0, ui.visuals().extreme_bg_color);
     if model.scene.is_some() {
         paint(ui, rect);
+        if let Some(marks) = &model.marks {
+            marks::show(ui, rect, marks);
+        }
         camera(ui, &response, actions);
         pick(ui, model, &response, actions);
     } else if *model.phase == Phase::Empty {
@@ -56,9 +60,18 @@ fn pick(ui: &Ui, model: &Model, response: &Response, actions: &mut Vec<Action>) 
     let clicked = response.interact_pointer_pos().filter(|_| response.clicked_by(PointerButton::Primary));
     let Some(position) = clicked else { return };
     let at = (position - response.rect.min) / response.rect.size();
-    let shift = ui.input(|input| input.modifiers.shift);
-    let is_point = shift && ViewGroup::of(model.look.view) == ViewGroup::PhotonMap;
+    let has_points = matches!(ViewGroup::of(model.look.view), ViewGroup::PhotonMap | ViewGroup::Radiosity);
+    let is_point = has_points && ui.input(was_with_shift);
     actions.push(if is_point { Action::PickPoint(at) } else { Action::Pick(at) });
+}
+
+/// Whether Shift was down when the button was let go last. By the end of a slow frame it may be up again.
+fn was_with_shift(input: &InputState) -> bool {
+    let released = input.events.iter().rev().find_map(|event| match event {
+        Event::PointerButton { pressed: false, modifiers, .. } => Some(modifiers.shift),
+        _ => None,
+    });
+    released.unwrap_or(false)
 }
 
 /// What there is to do before a scene is open.

@@ -35,7 +35,7 @@ pub fn markdown(scene: &str, budget: f64, study: &Study) -> String {
         truth.irradiance.len(),
         truth.paths,
         percent(truth.floor),
-        rayon::current_num_threads(),
+        study.threads,
         study.elapsed.as_secs_f64(),
     );
     text += "## The front: no other run was both faster and better\n\n";

@@ -2,6 +2,8 @@
 //! Greenberg, Battaile 1984). Form factors come from [`form_factor`]; they are either computed when a patch shoots
 //! ([`Progressive`]) or all of them first ([`FullMatrix`]).
 
+mod balance;
+mod equation;
 pub mod form_factor;
 mod full_matrix;
 mod ledger;
@@ -12,6 +14,8 @@ mod relax;
 mod sensor;
 mod surfaces;
 
+pub use balance::PickedLight;
+pub use equation::Points;
 pub use full_matrix::FullMatrix;
 pub use pick::pick;
 pub use progressive::Progressive;

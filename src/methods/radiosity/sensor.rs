@@ -33,16 +33,12 @@ pub fn irradiance_in_space(world: &World, solution: &Solution, point: Vec3A, nor
                 return Rgb64::ZERO;
             }
             let seed = hash(seed, index as u64, PASS) as u32;
-            mean_radiosity(world, solution, patch) * form_factor * visible_share(world, patch, point, normal, seed)
+            world.mesh.patch_mean(patch, &solution.light.radiosity)
+                * form_factor
+                * visible_share(world, patch, point, normal, seed)
         })
         .collect();
     from_patches.iter().sum::<Rgb64>().as_vec3()
-}
-
-fn mean_radiosity(world: &World, solution: &Solution, patch: &Patch) -> Rgb64 {
-    let elements = patch.elements.start as usize..patch.elements.end as usize;
-    let flux: Rgb64 = elements.map(|i| solution.light.radiosity[i].as_dvec3() * world.mesh.elements[i].area).sum();
-    if patch.area > 0.0 { flux / patch.area } else { Rgb64::ZERO }
 }
 
 /// Share of the patch's points above the horizon that the sensor sees.

@@ -22,6 +22,17 @@ pub fn mean_indirect_irradiance(world: &World, effects: Effects) -> Rgb {
     (surfaces.ambient(surfaces.emitted) - direct).as_vec3()
 }
 
+/// ρ of a patch, as it is seen with these effects.
+pub fn reflectance(world: &World, patch: &Patch, effects: Effects) -> Rgb64 {
+    colour(world.scene.materials[patch.material as usize].lobes().diffuse, effects).as_dvec3()
+}
+
+/// M_e of a patch with these effects, W/m². Emitters shine from their front; their back only reflects.
+pub fn exitance(world: &World, patch: &Patch, effects: Effects) -> Rgb64 {
+    let material = &world.scene.materials[patch.material as usize];
+    if patch.is_front { colour(material.exitance(), effects).as_dvec3() } else { Rgb64::ZERO }
+}
+
 /// Areas, reflectances and emission of the patches, in their order.
 pub struct Surfaces {
     /// Exposed area, m².
@@ -44,20 +55,15 @@ impl Surfaces {
     /// With what the simulated effects leave of the materials.
     pub fn new(world: &World, effects: Effects) -> Self {
         let patches = &world.mesh.patches;
-        let material = |patch: &Patch| &world.scene.materials[patch.material as usize];
-        // Emitters shine from their front; their back only reflects.
-        let exitance = |patch: &Patch| {
-            if patch.is_front { colour(material(patch).exitance(), effects).as_dvec3() } else { Rgb64::ZERO }
-        };
-        let reflectance = |patch: &Patch| colour(material(patch).lobes().diffuse, effects).as_dvec3();
-        let reflectance: Vec<Rgb64> = patches.iter().map(reflectance).collect();
+        let reflectance: Vec<Rgb64> = patches.iter().map(|patch| reflectance(world, patch, effects)).collect();
+        let exitance: Vec<Rgb64> = patches.iter().map(|patch| exitance(world, patch, effects)).collect();
         let reflects = effects.contains(Effect::Interreflection);
         Self {
             area: patches.iter().map(|patch| patch.area).collect(),
             bouncing: if reflects { reflectance.clone() } else { vec![Rgb64::ZERO; patches.len()] },
             reflectance,
-            exitance: patches.iter().map(exitance).collect(),
-            emitted: patches.iter().map(|patch| exitance(patch) * patch.area).sum(),
+            emitted: patches.iter().zip(&exitance).map(|(patch, exitance)| *exitance * patch.area).sum(),
+            exitance,
             escape_share: if effects.contains(Effect::Escape) { world.escape_share } else { 0.0 },
             effects,
         }

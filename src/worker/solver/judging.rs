@@ -15,13 +15,14 @@ impl<W: Workshop> Solver<W> {
     /// What there is to measure, for as long as nothing waits for it.
     pub(super) fn judging_to_do(&self, is_busy: bool) -> Option<Task> {
         let world = self.snapshot.world.as_ref().filter(|world| world.census.light_may_arrive)?;
-        if self.is_hushed || self.judge.has_crashed || is_busy && !self.judge.may_interrupt() {
+        if self.is_hushed || self.judge.is_given_up || is_busy && !self.judge.may_interrupt() {
             return None;
         }
         debug_assert!(self.judge.reference().is_none_or(|reference| reference.is_about(world)));
         let measured = [LightKind::Radiosity, LightKind::Photons].into_iter().find(|&kind| self.is_measure_due(kind));
         match measured {
             Some(kind) => Some(Task::Measure(kind)),
+            None if is_busy => self.judge.needs_more().then_some(Task::Refine),
             None => self.judge.wants_more().then_some(Task::Refine),
         }
     }
@@ -64,6 +65,9 @@ impl<W: Workshop> Solver<W> {
         let Some(world) = self.snapshot.world.clone() else { return };
         if self.judge.reference().is_none() {
             self.judge.turn_to(self.workshop.reference(&world));
+        }
+        if self.judge.is_given_up {
+            return;
         }
         self.judge.refine(self.mailbox.step_cancel());
         self.show_tracks();

@@ -80,9 +80,7 @@ impl<W: Workshop> Solver<W> {
             self.snapshot.seconds_per_ray = seconds_per_ray(&world);
             self.snapshot.world = Some(world);
         }
-        // What is picked is seen by another method now, or is gone with its world.
-        let picked = self.snapshot.picked.take().map(|picked| picked.patch);
-        self.wish = self.wish.or(picked).filter(|_| is_same_world);
+        self.look_again(is_same_world);
         self.history.begin(&settings);
         self.judge.tracks.begin(LightKind::Radiosity, &settings);
         if let Some(solution) = self.radiosity.run.as_ref().map(Run::solution) {
@@ -172,6 +170,7 @@ impl<W: Workshop> Solver<W> {
         self.history.record(solution.progress(), solution.elapsed);
         self.snapshot.curves = self.history.curves().to_vec();
         self.snapshot.solution = Some(Arc::new(solution));
+        self.inquiry.outdate();
     }
 
     pub(super) fn record_photons(&mut self) {

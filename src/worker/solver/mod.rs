@@ -17,6 +17,7 @@ use super::{Command, LightKind, Phase, Sight, Slot, Snapshot, Spot, Subject};
 use crate::errors::with_causes;
 use crate::scene::Scene;
 use easel::Easel;
+use picks::Inquiry;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -40,11 +41,11 @@ pub struct Solver<W: Workshop> {
     occlusion: Light<OcclusionRun>,
     easel: Easel<W::Image>,
     history: History,
+    /// What is picked in the light on surfaces.
+    inquiry: Inquiry,
     judge: Judge,
     /// Whether measuring waits for something else.
     is_hushed: bool,
-    /// A patch to be looked from when there is no command to serve.
-    wish: Option<u32>,
     /// Where the estimate from photons is looked into.
     spot: Option<Spot>,
     /// By how much longer the light on show was worked on than the picture that is read off it, since both wanted to be.
@@ -86,12 +87,14 @@ impl<R> Default for Light<R> {
 enum Part {
     Light(LightKind),
     Picture,
+    Inquiry,
     Truth,
 }
 
 /// What there is to do without a command.
 enum Task {
     LookFrom(u32),
+    Equation,
     Light(LightKind),
     Picture,
     /// Says how far off a light is.
@@ -114,9 +117,9 @@ impl<W: Workshop> Solver<W> {
             occlusion: Light::default(),
             easel: Easel::default(),
             history: History::default(),
+            inquiry: Inquiry::default(),
             judge: Judge::default(),
             is_hushed: false,
-            wish: None,
             spot: None,
             lead: 0.0,
             at_work: Part::Light(LightKind::Radiosity),
@@ -152,6 +155,7 @@ impl<W: Workshop> Solver<W> {
             Command::Pause => self.pause(),
             Command::Reset => self.reset(),
             Command::Pick(place) => self.pick(place),
+            Command::PickSource(place) => self.pick_source(place),
             Command::PickPhoton(photon) => self.pick_photon(photon),
             Command::Gather(spot) => self.gather(spot),
             Command::Look(sight) => self.look(sight),
@@ -161,8 +165,11 @@ impl<W: Workshop> Solver<W> {
 
     /// What a person waits for comes first, and measuring when nothing else is to be done, or on account.
     fn next_task(&mut self) -> Option<Task> {
-        if let Some(patch) = self.wish {
+        if let Some(patch) = self.patch_to_look_from() {
             return Some(Task::LookFrom(patch));
+        }
+        if self.is_equation_due() {
+            return Some(Task::Equation);
         }
         let task = self.next_of_light();
         let is_urgent = self.picture_to_do().is_some_and(|picture| picture.is_urgent);
@@ -190,6 +197,7 @@ impl<W: Workshop> Solver<W> {
         let start = Instant::now();
         let sign = match task {
             Task::LookFrom(patch) => return self.look_from(patch),
+            Task::Equation => return self.look_into_equation(),
             Task::Measure(kind) => return self.on_account(|solver| solver.measure(kind)),
             Task::Refine => return self.on_account(Self::refine),
             Task::Light(kind) => {
@@ -261,13 +269,17 @@ impl<W: Workshop> Solver<W> {
                 "ambient occlusion"
             }
             Part::Truth => {
-                self.judge.has_crashed = true;
+                self.judge.is_given_up = true;
                 "measuring of errors"
             }
             Part::Picture => {
                 self.easel.clear();
                 self.easel.has_crashed = true;
                 "picture from the camera"
+            }
+            Part::Inquiry => {
+                self.forget_picked();
+                "look at what is picked"
             }
         };
         self.loading = None;

@@ -1,40 +1,135 @@
-//! What a picked patch sees, the way of a picked photon, and what an estimate at a picked spot is made of.
+//! What a picked patch sees and where its light comes from, the way of a picked photon, and what an estimate at a picked spot
+//! is made of.
 
 use super::{Part, Solver};
-use crate::methods::radiosity;
+use crate::methods::radiosity::{self, PickedLight, Points};
 use crate::solution::Photon;
 use crate::worker::workshop::{PhotonMethod, Workshop};
-use crate::worker::{LightKind, Place, Spot};
+use crate::worker::{LightKind, Place, Spot, Subject};
 use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// While light grows, equations are at least this far apart: faster than anyone reads.
+const EQUATION_INTERVAL: Duration = Duration::from_millis(100);
+/// And at least so many times as far as one takes, so that the light loses little to them.
+const REST: u32 = 20;
+
+/// The places that are picked in the world on show, and what there is to find out about them.
+#[derive(Default)]
+pub(super) struct Inquiry {
+    /// x′
+    point: Option<Place>,
+    /// x″
+    source: Option<Place>,
+    /// Whether light, eye or places are newer than the equation that was published.
+    is_outdated: bool,
+    /// Until when light that grows goes first.
+    rests_until: Option<Instant>,
+}
+
+impl Inquiry {
+    /// Is told that something that the equation depends on has changed.
+    pub(super) fn outdate(&mut self) {
+        self.is_outdated = true;
+    }
+
+    /// Is told that a person has picked something: that is looked into at once.
+    fn hurry(&mut self) {
+        self.is_outdated = true;
+        self.rests_until = None;
+    }
+}
 
 impl<W: Workshop> Solver<W> {
-    /// Wishes to look from a patch, or forgets about it.
+    /// Wishes to know what the patch at a place sees, or forgets about all places.
     pub(super) fn pick(&mut self, place: Option<Place>) {
-        let is_on_show =
-            |place: &Place| self.snapshot.world.as_ref().is_some_and(|world| Arc::ptr_eq(world, &place.world));
         match place {
-            Some(place) if is_on_show(&place) => self.wish = Some(place.patch),
+            Some(place) if self.is_on_show(&place) => {
+                self.inquiry.point = Some(place);
+                self.inquiry.hurry();
+            }
             Some(_) => {}
             None => {
-                self.wish = None;
-                self.snapshot.picked = None;
+                self.forget_picked();
                 self.publish();
             }
         }
     }
 
+    /// Wishes to know what a second place sends to the first one.
+    pub(super) fn pick_source(&mut self, place: Place) {
+        if self.is_on_show(&place) {
+            self.inquiry.source = Some(place);
+            self.inquiry.hurry();
+        }
+    }
+
+    fn is_on_show(&self, place: &Place) -> bool {
+        self.snapshot.world.as_ref().is_some_and(|world| Arc::ptr_eq(world, &place.world))
+    }
+
+    /// The picked patch, until it is known what it sees.
+    pub(super) fn patch_to_look_from(&self) -> Option<u32> {
+        let patch = self.inquiry.point.as_ref()?.patch;
+        let is_known = self.snapshot.picked.as_ref().is_some_and(|picked| picked.patch == patch);
+        (!is_known).then_some(patch)
+    }
+
     /// Computes what a patch sees by the method of the settings; if interrupted, the wish stays.
     pub(super) fn look_from(&mut self, patch: u32) {
+        self.at_work = Part::Inquiry;
         let Some(world) = self.snapshot.world.as_ref() else { return };
-        // Should it panic, it is not tried again.
-        self.wish = None;
-        match radiosity::pick(world, &self.snapshot.settings, patch, self.mailbox.step_cancel()) {
-            Some(picked) => {
-                self.snapshot.picked = Some(Arc::new(picked));
-                self.publish();
-            }
-            None => self.wish = Some(patch),
+        if let Some(picked) = radiosity::pick(world, &self.snapshot.settings, patch, self.mailbox.step_cancel()) {
+            self.snapshot.picked = Some(Arc::new(picked));
+            self.inquiry.hurry();
+            self.publish();
         }
+    }
+
+    /// Whether there is something new to be said of the picked point, in a view that shows it.
+    pub(super) fn is_equation_due(&self) -> bool {
+        let Inquiry { point, is_outdated, rests_until, .. } = &self.inquiry;
+        let is_resting = rests_until.is_some_and(|until| Instant::now() < until);
+        let waits = is_resting && self.radiosity.going.is_running();
+        point.is_some() && *is_outdated && !waits && self.subject() == Subject::Radiosity
+    }
+
+    /// Says where the light at the picked point comes from; if interrupted, that is still to be done.
+    pub(super) fn look_into_equation(&mut self) {
+        self.at_work = Part::Inquiry;
+        let start = Instant::now();
+        let snapshot = &self.snapshot;
+        let (Some(world), Some(solution), Some(picked)) = (&snapshot.world, &snapshot.solution, &snapshot.picked)
+        else {
+            self.inquiry.is_outdated = false;
+            return;
+        };
+        let Some(place) = &self.inquiry.point else { return };
+        let light = PickedLight::new(world, &snapshot.settings, solution, picked);
+        let Some(balance) = light.balance(self.mailbox.step_cancel()) else { return };
+        let eye = self.sight.map_or(world.viewpoint.eye.as_dvec3(), |sight| sight.camera.eye());
+        let source = self.inquiry.source.as_ref().map(|source| (source.point, source.patch));
+        let equation = light.equation(&Points { eye, point: place.point, source }, balance);
+        self.snapshot.equation = Some(Arc::new(equation));
+        self.inquiry.is_outdated = false;
+        self.inquiry.rests_until = Some(Instant::now() + EQUATION_INTERVAL.max(REST * start.elapsed()));
+        self.publish();
+    }
+
+    /// Has what is picked looked at anew: it is seen by another method now, or gone with its world.
+    pub(super) fn look_again(&mut self, is_same_world: bool) {
+        self.snapshot.picked = None;
+        self.snapshot.equation = None;
+        if !is_same_world {
+            self.inquiry = Inquiry::default();
+        }
+    }
+
+    /// Forgets what was picked in the light on surfaces.
+    pub(super) fn forget_picked(&mut self) {
+        self.inquiry = Inquiry::default();
+        self.snapshot.picked = None;
+        self.snapshot.equation = None;
     }
 
     /// Traces one of the photons that were published last once more, or forgets about it.

@@ -114,7 +114,7 @@ pub fn out_of_sight(world: &World, shooter: &Patch) -> impl Fn(&Patch) -> Option
 }
 
 /// Planes that are nearer than this are one plane, m: twice as far as a lifted point.
-fn plane_tolerance(world: &World) -> f32 {
+pub fn plane_tolerance(world: &World) -> f32 {
     2.0 * world.tracer.offset()
 }
 

@@ -1,0 +1,89 @@
+//! The chart of errors over time, and looking for settings that suit a wish.
+
+use super::stage::{LARGE, SMALL, SMALLEST, Stage, WORLD, tracks};
+use super::{click, key};
+use egui::{Key, Modifiers};
+use egui_kittest::kittest::Queryable;
+use lightwell::accuracy::{Error, Truth};
+use lightwell::app::action::Action;
+use lightwell::app::model::{LowerPanel, Theme};
+use lightwell::app::wish::Wish;
+use lightwell::methods::Settings;
+use lightwell::study::{Answer, Choice, Promise, Question, Recipe, Way};
+use std::time::Duration;
+
+fn opened() -> Stage {
+    let truth = Truth { paths: 4_096, irradiance: Vec::new(), mean: 1.0, floor: 0.004 };
+    Stage { lower: Some(LowerPanel::Accuracy), tracks: tracks(), truth: Some(truth), ..Stage::default() }
+}
+
+fn answer(doing: Option<&str>, rms: f64) -> Answer {
+    let error = Error { rms, uncertainty: 0.001, floor: 0.01, noise: None };
+    let recipe = Recipe { way: Way::PhotonMap, settings: Settings::default() };
+    let promise = Promise { error: None, seconds: None };
+    Answer {
+        question: Question::Error(0.05),
+        doing: doing.map(str::to_owned),
+        found: doing.is_none().then_some(Choice { recipe, error, seconds: 0.5, promise }),
+        study: None,
+        is_dark: false,
+    }
+}
+
+#[test]
+fn the_panel_opens_and_closes_by_tab_and_key() {
+    let open = [Action::ShowLowerPanel(Some(LowerPanel::Accuracy))];
+    assert_eq!(click(Stage::default(), "Accuracy"), open);
+    assert_eq!(key(Stage::default(), Modifiers::NONE, Key::P), open);
+    assert_eq!(key(opened(), Modifiers::NONE, Key::P), [Action::ShowLowerPanel(None)]);
+}
+
+/// 0.03 + 0.01 / 2.56 is 3.39 %, and 0.1 / 1.6 is 6.25 %; noise falls with −1/2.
+#[test]
+fn each_run_has_its_error_and_its_slope_and_a_click_brings_its_settings_back() {
+    let window = opened().window(LARGE);
+    window.get_by_label("1 Progressive: 3.39\u{2009}%, slope −0.28");
+    window.get_by_label("2 200\u{2009}k photons: 6.25\u{2009}%, slope −0.50");
+    window.get_by_label("Reference: 4.1\u{2009}k paths a point, 0.40\u{2009}%");
+    let settings = tracks()[1].settings;
+    assert_eq!(
+        click(opened(), "2 200\u{2009}k photons: 6.25\u{2009}%, slope −0.50"),
+        [Action::ApplySettings(settings)]
+    );
+}
+
+#[test]
+fn wishes_are_asked_for_by_buttons_and_answered_in_words() {
+    assert_eq!(click(opened(), "Reach it"), [Action::Inquire(Question::Error(0.05))]);
+    let wish = Wish { error: 0.02, seconds: 3.0 };
+    let stage = Stage { wish, ..opened() };
+    assert_eq!(click(stage, "Use it"), [Action::Inquire(Question::Time(Duration::from_secs(3)))]);
+    let busy = Stage { answer: Some(answer(Some("3 of 9: Radiosity"), 0.0)), ..opened() };
+    assert_eq!(click(busy, "Stop"), [Action::StopInquiry]);
+    let kept = Stage { answer: Some(answer(None, 0.045)), ..opened() }.window(LARGE);
+    kept.get_by_label_contains("4.50\u{2009}% ± 0.10\u{2009}% in 500\u{2009}ms by Photon map");
+    let missed = Stage { answer: Some(answer(None, 0.06)), ..opened() }.window(LARGE);
+    missed.get_by_label_contains("not reached: 6.00\u{2009}%");
+}
+
+/// Of the light on show alone.
+#[test]
+fn the_status_line_has_the_error_of_what_is_on_show() {
+    let window = Stage { tracks: tracks(), ..Stage::default() }.window(LARGE);
+    window.get_by_label("error 3.39\u{2009}%");
+    assert!(window.query_by_label("error 6.25\u{2009}%").is_none());
+}
+
+#[test]
+fn nothing_is_cut_in_any_size_and_theme() {
+    assert!(WORLD.census.light_may_arrive);
+    for size in [SMALLEST, SMALL, LARGE] {
+        for theme in [Theme::Dark, Theme::Light] {
+            let window = Stage { theme, ..opened() }.window(size);
+            for label in ["Reach it", "Use it", "Study"] {
+                let rect = window.get_by_label(label).rect();
+                assert!(rect.right() <= size.x - 300.0 && rect.width() > 20.0, "{label} {rect:?} in {size}");
+            }
+        }
+    }
+}
