@@ -61,7 +61,7 @@ fn wishes_are_asked_for_by_buttons_and_answered_in_words() {
     let busy = Stage { answer: Some(answer(Some("3 of 9: Radiosity"), 0.0)), ..opened() };
     assert_eq!(click(busy, "Stop"), [Action::StopInquiry]);
     let kept = Stage { answer: Some(answer(None, 0.045)), ..opened() }.window(LARGE);
-    kept.get_by_label_contains("4.50\u{2009}% ± 0.10\u{2009}% in 500\u{2009}ms by Photon map");
+    kept.get_by_label_contains("4.50\u{2009}% ± 0.1\u{2009}% in 500\u{2009}ms by Photon map");
     let missed = Stage { answer: Some(answer(None, 0.06)), ..opened() }.window(LARGE);
     missed.get_by_label_contains("not reached: 6.00\u{2009}%");
 }

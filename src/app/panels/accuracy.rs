@@ -94,7 +94,7 @@ fn in_words(question: Question, choice: &Choice) -> String {
         Question::Error(wanted) if error.rms > wanted => "not reached: ",
         _ => "",
     };
-    let [error, uncertainty] = [error.rms, error.uncertainty].map(format::percent);
+    let (error, uncertainty) = (format::percent(error.rms), format::percent_short(error.uncertainty));
     format!("{kept}{error} ± {uncertainty} in {} by {}", format::si(*seconds, "s"), recipe.label())
 }
 
@@ -112,6 +112,7 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
 
 fn plot(ui: &mut Ui, model: &Model, descriptions: &[String], size: Vec2, actions: &mut Vec<Action>) {
     let palette = Palette::of(ui.visuals());
+    let range = range(model);
     let is_power = |mark: GridMark| mark.step_size == 1.0;
     let plot =
         Plot::new("errors over time")
@@ -119,10 +120,10 @@ fn plot(ui: &mut Ui, model: &Model, descriptions: &[String], size: Vec2, actions
             .height(size.y)
             .show_background(false)
             .grid_color(ui.visuals().weak_text_color().gamma_multiply(0.6))
-            .include_x(SECONDS[0])
-            .include_x(SECONDS[1])
-            .include_y(ERRORS[0])
-            .include_y(ERRORS[1])
+            .include_x(range[0][0])
+            .include_x(range[1][0])
+            .include_y(range[0][1])
+            .include_y(range[1][1])
             .allow_scroll(false)
             .y_axis_min_width(12.0 * UNIT)
             .x_grid_spacer(decades)
@@ -143,7 +144,7 @@ fn plot(ui: &mut Ui, model: &Model, descriptions: &[String], size: Vec2, actions
                 HoverPosition::Elsewhere { .. } => None,
             });
     let shown = plot.show(ui, |plot| {
-        floor(plot, model, palette);
+        floor(plot, model, range, palette);
         wish(plot, model.wish, palette);
         if let Some(study) = model.inquiry.and_then(|answer| answer.study.as_deref()) {
             studied(plot, &study.measured, palette);
@@ -169,18 +170,31 @@ fn plot(ui: &mut Ui, model: &Model, descriptions: &[String], size: Vec2, actions
     }
 }
 
+/// The corners of what is on show, as powers of ten: whole ones, so that they rest while runs go on.
+fn range(model: &Model) -> [[f64; 2]; 2] {
+    let [mut least, mut most] = [[SECONDS[0], ERRORS[0]], [SECONDS[1], ERRORS[1]]];
+    let studied = model.inquiry.and_then(|answer| answer.study.as_deref());
+    let of_study = studied.iter().flat_map(|study| &study.measured).filter_map(|measured| {
+        let Offer { seconds, error } = measured.offer();
+        powers(seconds, error)
+    });
+    let of_tracks = model.tracks.iter().flat_map(|track| &track.points).filter_map(logarithms);
+    for at in of_tracks.chain(of_study) {
+        for axis in 0..2 {
+            least[axis] = least[axis].min(at[axis].floor());
+            most[axis] = most[axis].max(at[axis].ceil());
+        }
+    }
+    [least, most]
+}
+
 /// The band in which the reference's own error is, and little can be told.
-fn floor(plot: &mut PlotUi<'_>, model: &Model, palette: Palette) {
+fn floor(plot: &mut PlotUi<'_>, model: &Model, range: [[f64; 2]; 2], palette: Palette) {
     let Some(floor) = model.truth.map(|truth| truth.floor).filter(|floor| floor.is_finite() && *floor > 0.0) else {
         return;
     };
-    // As far as is on show: it is no reason to show more.
-    let bounds = plot.plot_bounds();
-    let ([left, low], [right, top]) = (bounds.min(), bounds.max());
-    let high = floor.log10().min(top);
-    if !bounds.is_valid() || high <= low {
-        return;
-    }
+    let [[left, low], [right, top]] = range;
+    let high = floor.log10().clamp(low, top);
     let band = PlotPoints::from(vec![[left, low], [right, low], [right, high], [left, high]]);
     let color = palette.escaped.gamma_multiply(0.15);
     plot.add(Polygon::new("The reference's own error", band).fill_color(color).stroke((0.0, color)).allow_hover(false));
@@ -195,16 +209,21 @@ fn wish(plot: &mut PlotUi<'_>, wish: Wish, palette: Palette) {
 
 /// All that a study has measured, as dots.
 fn studied(plot: &mut PlotUi<'_>, measured: &[Measured], palette: Palette) {
-    for measured in measured.iter().filter(|measured| measured.error.rms > 0.0) {
+    for measured in measured {
+        let Some(at) = powers(measured.seconds, measured.error.rms) else { continue };
         let way = Way::ALL.iter().position(|way| *way == measured.recipe.way).unwrap_or_default();
         let color = palette.curves[way % palette.curves.len()].gamma_multiply(0.6);
-        let at = [measured.seconds.log10(), measured.error.rms.log10()];
         plot.points(Points::new(measured.recipe.label(), vec![at]).color(color).radius(1.5));
     }
 }
 
 fn logarithms(point: &TrackPoint) -> Option<[f64; 2]> {
-    (point.error.rms > 0.0 && point.seconds > 0.0).then(|| [point.seconds.log10(), point.error.rms.log10()])
+    powers(point.seconds, point.error.rms)
+}
+
+/// Both as powers of ten, where they have one.
+fn powers(seconds: f64, error: f64) -> Option<[f64; 2]> {
+    (seconds > 0.0 && error > 0.0).then(|| [seconds.log10(), error.log10()])
 }
 
 /// The runs, the newest first; a click brings the settings of one back.

@@ -55,7 +55,7 @@ fn error(ui: &mut Ui, model: &Model) {
         "Root mean square error of the irradiance at points spread over all surfaces, as a share of its mean: {} ± {} after \
          {}, against a path-traced reference",
         format::percent(error.rms),
-        format::percent(error.uncertainty),
+        format::percent_short(error.uncertainty),
         format::si(*seconds, "s"),
     );
     item(ui, format!("error {}", format::percent(error.rms)), &hover);
