@@ -29,7 +29,7 @@ fn program(folder: &TempDir, arguments: &str) -> Command {
     // Without this some graphics drivers complain on standard error.
     command.env("XDG_RUNTIME_DIR", folder.path());
     // Nothing is known from before.
-    command.env("XDG_CACHE_HOME", folder.path());
+    command.env("XDG_CACHE_HOME", folder.path()).env("MESA_SHADER_CACHE_DISABLE", "true");
     command
 }
 

@@ -38,9 +38,10 @@ fn a_study_keeps_its_budget_and_its_front_is_monotonic() {
     front.sort_by(|a, b| a[0].total_cmp(&b[0]));
     assert!(front.len() > 3, "{front:?}");
     assert!(front.windows(2).all(|pair| pair[0][0] < pair[1][0] && pair[0][1] > pair[1][1]), "{front:?}");
-    // Noise of independent samples; the paths of a point are spread a little better than that.
+    // Between independent samples and scrambled nets on smooth integrands of two dimensions, n^(-3/4) over their edges: paths
+    // have dimensions of both kinds.
     let slope = number(&report["slopes"]["reference"]);
-    assert!((slope + 0.5).abs() < 0.1, "{slope}");
+    assert!((-0.75..-0.45).contains(&slope), "{slope}");
 
     let table = std::fs::read_to_string(folder.path().join("cost/cost.csv")).expect("a table");
     let columns = cells(table.lines().next().expect("a line")).len();

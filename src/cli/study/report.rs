@@ -44,8 +44,8 @@ pub fn markdown(scene: &str, budget: f64, study: &Study) -> String {
         text += &row(measured);
     }
     text += "\n## How fast errors fall\n\n";
-    text += "Noise of independent samples falls with the exponent −0.5 over time: four times the time for half the error. Where \
-             a bias is left, errors level off: towards 0.\n\n";
+    text += "Noise of independent samples falls with the exponent −0.5 over time: four times the time for half the error; \
+             that of well-spread ones a little faster. Where a bias is left, errors level off: towards 0.\n\n";
     text += "| method | exponent over the last tenfold of time |\n|---|---:|\n";
     for (way, slope) in &study.slopes {
         text += &format!("| {} | {} |\n", way.label(), signed(*slope));
