@@ -17,6 +17,8 @@ mod looking;
 mod occlusion;
 #[path = "window/photons.rs"]
 mod photons;
+#[path = "window/props.rs"]
+mod props;
 #[path = "window/solvers.rs"]
 mod solvers;
 #[path = "window/stage.rs"]
@@ -36,7 +38,8 @@ use lightwell::methods::Settings;
 use lightwell::scene::{FindingKind, Severity};
 use lightwell::viewport::{AdapterChoice, Gpu, View};
 use lightwell::worker::{Command, Phase};
-use stage::{LARGE, SMALL, SMALLEST, Stage, finding, showing, solution};
+use props::{finding, solution};
+use stage::{LARGE, SMALL, SMALLEST, Stage, showing};
 use std::time::{Duration, Instant};
 
 /// What one key asks for.

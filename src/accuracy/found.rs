@@ -5,6 +5,7 @@ use crate::math::rgb::Rgb;
 use crate::math::stats::Moments;
 use crate::methods::photon_map::{Estimate, PhotonMaps, Scratch, Which};
 use crate::methods::radiosity::irradiance_in_space;
+use crate::methods::transport::{Surface, Transport};
 use crate::solution::{Solution, SurfaceProbe};
 use crate::world::World;
 use rayon::prelude::*;
@@ -32,6 +33,15 @@ fn count(points: usize) -> f64 {
     3.0 * points.max(1) as f64
 }
 
+/// The surfaces that points were spread over, in their order.
+///
+/// # Panics
+/// If a point lies on no surface: those of [`super::spread`] all do.
+pub fn surfaces(transport: &Transport, points: &[ProbePoint]) -> Vec<Surface> {
+    let surface = |at: &ProbePoint| transport.surface_at(at.point, at.normal);
+    points.iter().map(|at| surface(at).expect("points are spread where a surface is met")).collect()
+}
+
 /// Read off a radiosity solution; where a point lies on no element, gathered from all patches.
 pub fn by_radiosity(world: &World, solution: &Solution, points: &[ProbePoint], seed: u64) -> Found {
     let probe = SurfaceProbe::new(world, solution);
@@ -42,20 +52,18 @@ pub fn by_radiosity(world: &World, solution: &Solution, points: &[ProbePoint], s
     Found { irradiance: points.par_iter().map(measure).collect(), variance: None }
 }
 
-/// Estimated from photons; 0 at points that are on no surface.
+/// Estimated from the photons of one pass.
 pub fn by_photons(maps: &PhotonMaps, points: &[ProbePoint]) -> Found {
-    let measure = |scratch: &mut Scratch, at: &ProbePoint| {
-        let surface = maps.transport().surface_at(at.point, at.normal)?;
-        Some(maps.irradiance(&surface, Which::All, scratch))
-    };
-    let estimates: Vec<Option<Estimate>> = points.par_iter().map_init(Scratch::default, measure).collect();
+    let measure = |scratch: &mut Scratch, surface: &Surface| maps.irradiance(surface, Which::All, scratch);
+    let surfaces = surfaces(maps.transport(), points);
+    let estimates: Vec<Estimate> = surfaces.par_iter().map_init(Scratch::default, measure).collect();
     let square = |estimate: &Estimate| {
         let deviation = estimate.irradiance * estimate.relative_error;
         if deviation.is_finite() { f64::from(deviation.length_squared()) } else { 0.0 }
     };
-    let squares: f64 = estimates.iter().flatten().map(square).sum();
+    let squares: f64 = estimates.iter().map(square).sum();
     Found {
-        irradiance: estimates.iter().map(|found| found.map_or(Rgb::ZERO, |found| found.irradiance)).collect(),
+        irradiance: estimates.iter().map(|found| found.irradiance).collect(),
         variance: Some(squares / count(points.len())),
     }
 }

@@ -40,6 +40,13 @@ pub fn slope(offers: &[Offer]) -> Option<f64> {
     (over > 0.0).then(|| both / over)
 }
 
+/// The exponent over the last tenfold of time: what it costs to begin, and the first points of a sequence, which are spread
+/// better than later ones can be, say nothing of where a run leads. Offers are in the order of time.
+pub fn slope_at_end(offers: &[Offer]) -> Option<f64> {
+    let from = offers.last()?.seconds / 10.0;
+    slope(&offers.iter().copied().filter(|offer| offer.seconds >= from).collect::<Vec<_>>())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -53,6 +60,8 @@ mod tests {
     fn a_law_of_powers_has_its_exponent() {
         let offers: Vec<_> = (1..9).map(|i| offer(f64::from(i), 3.0 * f64::from(i).powf(-0.5))).collect();
         assert!((slope(&offers).expect("a slope") + 0.5).abs() < 1e-12);
+        let begins_late: Vec<_> = [offer(0.01, 7.0)].into_iter().chain(offers.iter().copied()).collect();
+        assert!((slope_at_end(&begins_late).expect("a slope") + 0.5).abs() < 1e-12);
         assert_eq!(slope(&offers[..2]), None);
         assert_eq!(slope(&[offer(1.0, 1.0); 3]), None);
     }

@@ -9,7 +9,7 @@ mod reference;
 
 pub use cache::{Cache, CacheError, Key};
 pub use error::Error;
-pub use found::{Found, by_photons, by_radiosity};
-pub use front::{Offer, front, slope};
+pub use found::{Found, by_photons, by_radiosity, surfaces};
+pub use front::{Offer, front, slope_at_end};
 pub use points::{ProbePoint, spread};
 pub use reference::{Reference, Truth};

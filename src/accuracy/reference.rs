@@ -43,9 +43,9 @@ impl Reference {
     }
 
     /// The same, going on from what is kept of this scene, if anything is.
-    pub fn from_cache(world: Arc<World>, cache: &Cache) -> Self {
+    pub fn open(world: Arc<World>, cache: Option<&Cache>) -> Self {
         let mut reference = Self::new(world);
-        if let Some((paths, sums)) = cache.load(&reference.key)
+        if let Some((paths, sums)) = cache.and_then(|cache| cache.load(&reference.key))
             && reference.sensors.go_on_from(paths, sums)
         {
             reference.truth = Arc::new(Truth::of(&reference.sensors));
@@ -160,7 +160,7 @@ mod tests {
         let cache = Cache::at(folder.path().to_owned());
         let world = world("cornell-box");
         refined(Reference::new(world.clone()), 2).keep(&cache).expect("a file");
-        let resumed = refined(Reference::from_cache(world.clone(), &cache), 1);
+        let resumed = refined(Reference::open(world.clone(), Some(&cache)), 1);
         let whole = refined(Reference::new(world), 3);
         assert_eq!(resumed.truth().paths, 3 * Sensors::REPLICATES as u64);
         assert_eq!(resumed.truth().irradiance, whole.truth().irradiance);

@@ -1,6 +1,9 @@
 //! The program behind the window: it holds what is on show and is the one place that acts on wishes.
 
+mod picking;
+
 use super::action::Action;
+use super::asking::{Asking, News};
 use super::diagrams::Diagrams;
 use super::effects::EffectFacts;
 use super::equation::EquationFacts;
@@ -21,10 +24,10 @@ use crate::hard_cases::cases;
 use crate::methods::Settings;
 use crate::scene::Source;
 use crate::solution::CameraView;
-use crate::study::{Inquiry, Question, Way};
+use crate::study::{Question, Way};
 use crate::viewport::{Legend, View};
-use crate::worker::{Checks, Command, Place, Shown, Sight, Snapshot, Spot, Worker};
-use egui::{Ui, Vec2, ViewportCommand};
+use crate::worker::{Checks, Command, Shown, Sight, Snapshot, Worker};
+use egui::{Ui, ViewportCommand};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -41,11 +44,7 @@ pub struct Explorer {
     pictures: Pictures,
     diagrams: Diagrams,
     checks: Option<Checks>,
-    /// Which settings suit a wish, or a study, in the making or done.
-    inquiry: Option<Inquiry>,
-    cache: Option<Cache>,
-    /// Whether the answer is still to be taken over.
-    is_answer_awaited: bool,
+    asking: Asking,
     file_dialogs: FileDialogs,
     look: Look,
     /// What the solver thread was told last of what is on show.
@@ -87,9 +86,7 @@ impl Explorer {
             pictures: Pictures::spawn(pane.gpu().clone(), ctx.clone()),
             diagrams: Diagrams::default(),
             checks: None,
-            inquiry: None,
-            cache,
-            is_answer_awaited: false,
+            asking: Asking::new(cache),
             file_dialogs: FileDialogs::new(ctx),
             look: Look::default(),
             told: None,
@@ -159,7 +156,7 @@ impl Explorer {
         let mut actions = Vec::new();
         let error = self.snapshot.error.as_deref().filter(|_| !self.is_error_dismissed);
         let report = self.checks.as_ref().map(Checks::latest);
-        let answer = self.inquiry.as_ref().map(Inquiry::latest);
+        let answer = self.asking.latest();
         let settings = self.edited.unwrap_or(self.snapshot.settings);
         let is_radiosity = ViewGroup::of(self.look.view) == ViewGroup::Radiosity;
         let equation = EquationFacts::of(&self.snapshot).filter(|_| is_radiosity);
@@ -239,10 +236,7 @@ impl Explorer {
             Action::SetChart(chart) => self.preferences.chart = chart,
             Action::SetWish(wish) => self.preferences.wish = wish,
             Action::Inquire(question) => self.inquire(ctx, question),
-            Action::StopInquiry => {
-                self.inquiry = None;
-                self.worker.send(Command::Hush(false));
-            }
+            Action::StopInquiry => self.asking.stop(),
             Action::RunChecks => {
                 let ctx = ctx.clone();
                 self.checks = Some(Checks::spawn(move || ctx.request_repaint()));
@@ -276,77 +270,24 @@ impl Explorer {
 
     /// Begins to look for settings that suit a wish; measuring of what is on show waits for it.
     fn inquire(&mut self, ctx: &egui::Context, question: Question) {
-        let Some(world) = self.snapshot.world.clone() else { return };
         let ctx = ctx.clone();
-        let (settings, cache) = (self.snapshot.settings, self.cache.clone());
-        self.worker.send(Command::Hush(true));
-        self.inquiry = Some(Inquiry::spawn(question, world, settings, cache, move || ctx.request_repaint()));
-        self.is_answer_awaited = true;
+        let is_begun = self.asking.ask(question, &self.snapshot, move || ctx.request_repaint());
+        self.worker.send(Command::Hush(is_begun));
     }
 
     /// Takes over what was looked for and found, and lets it run.
     fn take_answer(&mut self) {
-        let Some(answer) = self.inquiry.as_ref().map(Inquiry::latest) else { return };
-        if answer.doing.is_some() || !std::mem::take(&mut self.is_answer_awaited) {
-            return;
-        }
+        let Some(news) = self.asking.news(&self.snapshot) else { return };
         self.worker.send(Command::Hush(false));
-        if let Some(choice) = answer.found {
-            let view = if choice.recipe.way == Way::PhotonMap {
-                View::Camera(CameraView::PhotonRadiance)
-            } else {
-                View::Smooth
-            };
+        if let News::Found(choice) = news {
+            let recipe = choice.recipe;
+            let is_photons = recipe.way == Way::PhotonMap;
+            let view = if is_photons { View::Camera(CameraView::PhotonRadiance) } else { View::Smooth };
             self.look = Look { view, ..self.look };
             self.tell_sight();
-            self.configure(choice.recipe.settings);
+            self.configure(recipe.applied_to(&self.snapshot.settings));
             self.worker.send(Command::Run);
         }
-    }
-
-    /// Picks what the view shows at a point.
-    fn pick_at(&self, at: Vec2) {
-        match ViewGroup::of(self.look.view) {
-            ViewGroup::Radiosity => self.worker.send(Command::Pick(self.pane.place_at(at))),
-            ViewGroup::PhotonMap => {
-                let photon = self.pane.photon_at(at, &self.look, self.snapshot.settings.image.filter);
-                self.pick_photons(photon, self.pane.spot_at(at).filter(|_| photon.is_none()));
-            }
-            // What rays bring to a point is not kept.
-            ViewGroup::Rays | ViewGroup::Occlusion | ViewGroup::Truth => {}
-        }
-    }
-
-    /// Picks the point of the surface that the view shows there.
-    fn pick_point(&self, at: Vec2) {
-        if ViewGroup::of(self.look.view) == ViewGroup::Radiosity {
-            self.pick_source(self.pane.place_at(at));
-        } else {
-            self.pick_photons(None, self.pane.spot_at(at));
-        }
-    }
-
-    fn pick_source(&self, place: Option<Place>) {
-        if let Some(place) = place {
-            self.worker.send(Command::PickSource(place));
-        }
-    }
-
-    fn unpick(&self) {
-        match ViewGroup::of(self.look.view) {
-            ViewGroup::Radiosity => self.worker.send(Command::Pick(None)),
-            ViewGroup::PhotonMap | ViewGroup::Rays | ViewGroup::Occlusion | ViewGroup::Truth => {
-                self.pick_photons(None, None);
-            }
-        }
-    }
-
-    /// One of the two, or neither. The photon is an index among those on show.
-    fn pick_photons(&self, photon: Option<u32>, spot: Option<Spot>) {
-        let photons = self.snapshot.photons.as_ref().map(|solution| &solution.photons);
-        let photon = photon.and_then(|index| photons?.get(index as usize).copied());
-        self.worker.send(Command::PickPhoton(photon));
-        self.worker.send(Command::Gather(spot));
     }
 
     /// Tells the solver thread what is on show, if that is another view, camera or size than in the last frame.

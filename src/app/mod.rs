@@ -4,6 +4,7 @@
 //! where anything changes. Only this module names egui, eframe and rfd.
 
 pub mod action;
+mod asking;
 pub mod chart;
 pub mod diagrams;
 pub mod effects;

@@ -2,11 +2,11 @@
 
 use super::run_options::RunOptions;
 use super::{CliError, refuse};
-use crate::accuracy::{Cache, CacheError, Error, Reference};
+use crate::accuracy::{Cache, Error};
 use crate::cancel::Cancel;
 use crate::errors::with_causes;
 use crate::methods::Settings;
-use crate::study::{Bench, Goal, Light, Memory, Recipe, Sought, seek};
+use crate::study::{Bench, Goal, Light, Recipe, Sought, seek};
 use serde_json::{Value, json};
 use std::time::{Duration, Instant};
 
@@ -42,8 +42,8 @@ impl Budget {
     /// Of a command whose method is chosen; `None` where there is no budget, or one method is asked for and time limits it.
     /// Ends the program, as any other wrong command line does, where options say how light is computed although that is to be
     /// chosen.
-    pub fn of(run: &RunOptions, method: Option<&str>) -> Option<Self> {
-        let (error, time) = (run.error(), run.time());
+    pub fn of(run: &RunOptions, error: Option<f64>, method: Option<&str>) -> Option<Self> {
+        let time = run.time();
         if let (Some(method), Some(_)) = (method, error) {
             refuse(&format!("--error chooses the method: --method {method} has no place with it"));
         }
@@ -61,22 +61,11 @@ impl Budget {
     pub fn seek(&self, run: &RunOptions) -> Result<Found, CliError> {
         let world = run.open()?;
         let settings = Settings { unshot_limit: Settings::default().unshot_limit, ..run.settings() };
-        let cache = Cache::of_user();
-        let reference = match &cache {
-            Some(cache) => Reference::from_cache(world.clone(), cache),
-            None => Reference::new(world.clone()),
-        };
-        let key = *reference.key();
-        let mut memory = cache.as_ref().map(|cache| Memory::load(cache, &key)).unwrap_or_default();
-        let mut bench = Bench::new(world, settings.mesh, reference);
+        let mut bench = Bench::open(world, settings.mesh, Cache::of_user());
         let end = self.time.and_then(|time| (self.start + time).checked_sub(FOR_TELLING));
-        let goal = Goal { error: self.error, end };
-        let sought = seek(&mut bench, &settings, &goal, &mut memory, &Cancel::default());
-        if let Some(cache) = &cache {
-            let kept: Result<(), CacheError> = bench.reference.keep(cache).and_then(|()| memory.store(cache, &key));
-            if let Err(error) = kept {
-                eprintln!("warning: {}", with_causes(&error));
-            }
+        let sought = seek(&mut bench, &settings, &Goal { error: self.error, end }, &Cancel::default());
+        if let Err(error) = bench.keep() {
+            eprintln!("warning: {}", with_causes(&error));
         }
         let Sought { outcome, error, promise } = sought.ok_or(CliError::NothingFound)?;
         Ok(Found {
@@ -85,7 +74,7 @@ impl Budget {
             budget: *self,
             recipe: outcome.recipe,
             error,
-            solver_seconds: outcome.seconds,
+            solver_seconds: outcome.price.seconds,
             expected: [promise.error, promise.seconds],
             seconds: self.start.elapsed().as_secs_f64(),
         })
@@ -115,7 +104,7 @@ impl Found {
         });
         let mut chosen = json!({ "method": self.recipe.way, "options": self.recipe.options() });
         for (knob, setting) in self.recipe.knobs() {
-            chosen["settings"][knob.option().trim_start_matches("--")] = json!(setting.to_string());
+            chosen["settings"][knob.option().trim_start_matches("--")] = json!(setting);
         }
         report["chosen"] = chosen;
         report["kept"] = json!(self.is_kept());

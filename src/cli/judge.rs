@@ -32,11 +32,7 @@ pub struct Verdict {
 impl Judge {
     pub fn new(world: Arc<World>) -> Self {
         let cache = Cache::of_user();
-        let reference = match &cache {
-            Some(cache) => Reference::from_cache(world, cache),
-            None => Reference::new(world),
-        };
-        Self { reference, cache }
+        Self { reference: Reference::open(world, cache.as_ref()), cache }
     }
 
     /// Where errors are measured.
@@ -52,9 +48,7 @@ impl Judge {
     pub fn found_by_photons(&self, tracing: &mut Tracing) -> Result<(PhotonSolution, Found), CliError> {
         let points = self.reference.points();
         if tracing.settings.photons.is_progressive {
-            let photons = tracing.photons()?.method();
-            let surfaces = points.iter().filter_map(|at| photons.surface(at.point, at.normal)).collect();
-            let mut means = ProgressivePoints::new(surfaces);
+            let mut means = ProgressivePoints::new(tracing.photons()?.method().surfaces(points));
             let solution = tracing.trace(|photons| means.add(&photons.method().maps(), Which::All))?;
             return Ok((solution, Found::of_samples(means.irradiance())));
         }

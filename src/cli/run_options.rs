@@ -56,13 +56,9 @@ pub struct RunOptions {
     /// Stop after this many shots or sweeps
     #[arg(long, value_name = "N", group = "stop")]
     steps: Option<u64>,
-    /// Stop after this much solver time; a picture from a camera gets its first sample even if that takes longer. Where no
-    /// method is asked for, it is chosen, with its settings, to be as accurate as can be within this time in all
+    /// Stop after this much solver time; a picture from a camera gets its first sample even if that takes longer
     #[arg(long, value_name = "SECONDS", group = "stop", value_parser = values::positive)]
     time: Option<f64>,
-    /// Choose the method and its settings: the cheapest whose error is at most this share of the mean irradiance
-    #[arg(long, value_name = "PERCENT", conflicts_with_all = ["steps", "converge"], value_parser = values::percent)]
-    error: Option<f64>,
     /// Stop when at most this share of the emitted flux is unshot [default: 0.1]
     #[arg(long, value_name = "PERCENT", group = "stop", value_parser = values::percent)]
     converge: Option<f64>,
@@ -118,11 +114,6 @@ impl RunOptions {
             effects: self.effects.switches(),
             ..Settings::default()
         }
-    }
-
-    /// The largest error that is allowed, as a share, where the method is to be chosen by it.
-    pub fn error(&self) -> Option<f64> {
-        self.error.map(|percent| percent / 100.0)
     }
 
     /// Whether nothing is said of how light is computed.

@@ -5,7 +5,7 @@ use super::judge::Judge;
 use super::photon_options::{LightMethod, PhotonOptions};
 use super::run_options::{RunOptions, Solved};
 use super::tracing::{Tracing, photon_report};
-use super::{CliError, effect_options, refuse};
+use super::{CliError, effect_options, refuse, values};
 use crate::choice::{Choice, parse};
 use crate::math::rgb::total;
 use crate::methods::Settings;
@@ -20,9 +20,13 @@ use std::io::Write;
 pub struct Options {
     #[command(flatten)]
     run: RunOptions,
-    /// How light is computed: radiosity or photon-map [default: radiosity, or what --error or --time lead to]
+    /// How light is computed: radiosity or photon-map [default: radiosity, or with --error, or --time, what suits it best]
     #[arg(long, value_name = "METHOD", value_parser = parse::<LightMethod>)]
     method: Option<LightMethod>,
+    /// Choose the method and its settings: the cheapest whose error is at most this share of the mean irradiance. With --time
+    /// instead, and no --method, the most accurate within this time in all
+    #[arg(long, value_name = "PERCENT", conflicts_with_all = ["steps", "converge"], value_parser = values::percent)]
+    error: Option<f64>,
     #[command(flatten)]
     photons: PhotonOptions,
     /// Measure how far the light is off at points spread over all surfaces, against a path-traced reference that is kept
@@ -35,7 +39,11 @@ pub struct Options {
 }
 
 pub fn run(options: &Options) -> Result<(), CliError> {
-    let (report, text) = match Budget::of(&options.run, options.method.map(LightMethod::name)) {
+    let (report, text) = match Budget::of(
+        &options.run,
+        options.error.map(|percent| percent / 100.0),
+        options.method.map(LightMethod::name),
+    ) {
         Some(budget) => {
             if let Some(option) = options.photons.given() {
                 refuse(&format!("{option} says how light is computed: --method photon-map goes with it"));

@@ -2,14 +2,14 @@
 
 use super::bench::Bench;
 use super::recipe::{Recipe, Way};
-use crate::accuracy::{Found, ProbePoint, by_photons, by_radiosity};
+use crate::accuracy::{Found, ProbePoint, by_photons, by_radiosity, surfaces};
 use crate::cancel::Cancel;
 use crate::math::rgb::Rgb;
 use crate::methods::image::{Meters, Sources};
 use crate::methods::path_trace::{Sensor, Sensors};
 use crate::methods::photon_map::{PhotonMaps, ProgressivePoints, Which};
 use crate::methods::radiosity::FullMatrix;
-use crate::methods::transport::{Surface, Transport};
+use crate::methods::transport::Transport;
 use crate::methods::{ImageSettings, PhotonSettings, Settings, Step};
 use crate::solution::{Photon, PhotonSolution, Solution};
 use crate::worker::{Methods, PhotonRun, Refused, Run, TracedPhotons, Workshop};
@@ -28,6 +28,15 @@ pub struct Outcome {
     pub recipe: Recipe,
     /// Whether the recipe was followed to its end.
     pub is_finished: bool,
+    pub price: Price,
+    pub found: Found,
+    /// Light that is everywhere, where it is.
+    pub light: Option<Light>,
+}
+
+/// What a run took.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Price {
     /// Of the solver.
     pub seconds: f64,
     /// From the cutting of the mesh to the measuring of the error.
@@ -35,9 +44,6 @@ pub struct Outcome {
     pub rays: u64,
     /// Memory that it held besides the scene.
     pub bytes: u64,
-    pub found: Found,
-    /// Light that is everywhere, where it is.
-    pub light: Option<Light>,
 }
 
 /// Light that a recipe has computed, in the world that it was computed in.
@@ -105,19 +111,17 @@ impl Trial<'_> {
         Instant::now() < self.end && !self.cancel.is_requested()
     }
 
-    /// Hands out what was found by now.
-    fn tell(
-        &mut self,
-        settings: Settings,
-        is_finished: bool,
-        spent: Spent,
-        found: Found,
-        light: Option<Light>,
-    ) -> Verdict {
-        let recipe = Recipe { settings, ..*self.recipe };
-        let Spent { elapsed, rays, bytes } = spent;
+    fn price(&self, elapsed: Duration, rays: u64, bytes: u64) -> Price {
         let [seconds, all_seconds] = [elapsed, self.start.elapsed()].map(|time| time.as_secs_f64());
-        (self.note)(Outcome { recipe, is_finished, seconds, all_seconds, rays, bytes, found, light })
+        Price { seconds, all_seconds, rays, bytes }
+    }
+
+    /// Hands out what was found by now, with so many samples a place.
+    fn tell_samples(&mut self, samples: u32, price: Price, found: Found) -> Verdict {
+        let settings = self.recipe.settings;
+        let image = ImageSettings { samples, ..settings.image };
+        let recipe = Recipe { settings: Settings { image, ..settings }, ..*self.recipe };
+        (self.note)(Outcome { recipe, is_finished: true, price, found, light: None })
     }
 
     fn radiosity(&mut self, world: &Arc<World>) -> Result<(), Refused> {
@@ -155,13 +159,14 @@ impl Trial<'_> {
         let settings = self.recipe.settings;
         let found = by_radiosity(world, solution, self.points, settings.seed);
         let unshot_limit = if is_finished { settings.unshot_limit } else { solution.unshot_share };
-        let spent = Spent {
-            elapsed: solution.elapsed,
-            rays: solution.counters.rays,
-            bytes: bytes_of_radiosity(world, &settings),
-        };
-        let light = Light::Radiosity(world.clone(), solution.clone());
-        self.tell(Settings { unshot_limit, ..settings }, is_finished, spent, found, Some(light))
+        let price = self.price(solution.elapsed, solution.counters.rays, bytes_of_radiosity(world, &settings));
+        (self.note)(Outcome {
+            recipe: Recipe { settings: Settings { unshot_limit, ..settings }, ..*self.recipe },
+            is_finished,
+            price,
+            found,
+            light: Some(Light::Radiosity(world.clone(), solution.clone())),
+        })
     }
 
     fn photons(&mut self, world: &Arc<World>) -> Result<(), Refused> {
@@ -170,29 +175,38 @@ impl Trial<'_> {
         let mut means: Option<ProgressivePoints> = None;
         let mut reading = Duration::ZERO;
         let mut rays = 0;
-        for pass in 1..=if settings.photons.is_progressive { settings.photons.passes } else { 1 } {
+        let passes = if settings.photons.is_progressive { settings.photons.passes } else { 1 };
+        for pass in 1..=passes {
             if !self.trace_pass(&mut run) {
                 return Ok(());
             }
             let start = Instant::now();
             let maps = run.method().maps();
-            rays += run.solution().counters.rays;
             let found = if settings.photons.is_progressive {
-                let surfaces = || surfaces(maps.transport(), self.points);
-                let means = means.get_or_insert_with(|| ProgressivePoints::new(surfaces()));
+                let means =
+                    means.get_or_insert_with(|| ProgressivePoints::new(surfaces(maps.transport(), self.points)));
                 means.add(&maps, Which::All);
-                pass.is_power_of_two().then(|| Found::of_samples(means.irradiance()))
+                Found::of_samples(means.irradiance())
             } else {
-                Some(by_photons(&maps, self.points))
+                by_photons(&maps, self.points)
             };
             reading += start.elapsed();
-            if let Some(found) = found {
-                let photons = PhotonSettings { passes: pass, ..settings.photons };
-                let spent = Spent { elapsed: run.elapsed() + reading, rays, bytes: bytes_of_photons(&maps) };
-                let light = Light::Photons(world.clone(), Arc::new(run.solution()));
-                if self.tell(Settings { photons, ..settings }, true, spent, found, Some(light)).is_break() {
-                    return Ok(());
-                }
+            let solution = run.solution();
+            rays += solution.counters.rays;
+            if !pass.is_power_of_two() && pass != passes {
+                continue;
+            }
+            let photons = PhotonSettings { passes: pass, ..settings.photons };
+            let price = self.price(run.elapsed() + reading, rays, bytes_of_photons(&maps));
+            let verdict = (self.note)(Outcome {
+                recipe: Recipe { settings: Settings { photons, ..settings }, ..*self.recipe },
+                is_finished: true,
+                price,
+                found,
+                light: Some(Light::Photons(world.clone(), Arc::new(solution))),
+            });
+            if verdict.is_break() {
+                return Ok(());
             }
         }
         Ok(())
@@ -215,7 +229,7 @@ impl Trial<'_> {
         let Some(view) = self.recipe.way.view() else { return Ok(()) };
         let settings = self.recipe.settings;
         let start = Instant::now();
-        let mut spent = Spent::default();
+        let (mut rays, mut bytes) = (0, 0);
         let mut sources = Sources {
             transport: Arc::new(Transport::new(world.clone(), settings.effects)),
             radiosity: None,
@@ -226,8 +240,7 @@ impl Trial<'_> {
             if !is_finished {
                 return Ok(());
             }
-            spent.rays = solution.counters.rays;
-            spent.bytes = bytes_of_radiosity(world, &settings);
+            (rays, bytes) = (solution.counters.rays, bytes_of_radiosity(world, &settings));
             sources.radiosity = Some(solution);
         }
         if view.needs_photons() {
@@ -236,8 +249,7 @@ impl Trial<'_> {
                 return Ok(());
             }
             let maps = run.method().maps();
-            spent.rays = run.solution().counters.rays;
-            spent.bytes = bytes_of_photons(&maps);
+            (rays, bytes) = (run.solution().counters.rays, bytes_of_photons(&maps));
             sources.photons = Some(maps);
         }
         let surfaces = surfaces(&sources.transport, self.points);
@@ -245,10 +257,8 @@ impl Trial<'_> {
         while meters.samples() < settings.image.samples && self.has_time() && meters.step(self.cancel) {
             let samples = meters.samples();
             if samples.is_power_of_two() || samples == settings.image.samples {
-                let image = ImageSettings { samples, ..settings.image };
-                let spent = Spent { elapsed: start.elapsed(), rays: spent.rays + meters.rays(), bytes: spent.bytes };
-                let found = Found::of_samples(meters.irradiance());
-                if self.tell(Settings { image, ..settings }, true, spent, found, None).is_break() {
+                let price = self.price(start.elapsed(), rays + meters.rays(), bytes);
+                if self.tell_samples(samples, price, Found::of_samples(meters.irradiance())).is_break() {
                     return Ok(());
                 }
             }
@@ -268,28 +278,14 @@ impl Trial<'_> {
             step = sensors.paths() / Sensors::REPLICATES as u64;
             let elapsed = start.elapsed();
             let samples = u32::try_from(sensors.paths()).unwrap_or(u32::MAX);
-            let image = ImageSettings { samples, ..settings.image };
-            let spent = Spent { elapsed, rays: sensors.rays(), bytes: 0 };
-            let found = Found::of_samples(&sensors.irradiance());
-            let verdict = self.tell(Settings { image, ..settings }, true, spent, found, None);
+            let price = self.price(elapsed, sensors.rays(), 0);
+            let verdict = self.tell_samples(samples, price, Found::of_samples(&sensors.irradiance()));
             // The next one would take as long as all before.
             if verdict.is_break() || Instant::now() + elapsed > self.end {
                 break;
             }
         }
     }
-}
-
-/// The price of a run so far.
-#[derive(Clone, Copy, Default)]
-struct Spent {
-    elapsed: Duration,
-    rays: u64,
-    bytes: u64,
-}
-
-fn surfaces(transport: &Transport, points: &[ProbePoint]) -> Vec<Surface> {
-    points.iter().filter_map(|at| transport.surface_at(at.point, at.normal)).collect()
 }
 
 /// Light of each element and, where it is kept, the matrix.

@@ -1,23 +1,39 @@
-//! Where ways to compute light are tried: one scene, cut as finely as each of them asks for, and its truth.
+//! Where ways to compute light are tried: one scene, cut as finely as each of them asks for, its truth, and what is known of runs
+//! on it.
 
-use crate::accuracy::{Found, Reference, Truth};
+use super::memory::Memory;
+use crate::accuracy::{Cache, CacheError, Reference};
 use crate::cancel::Cancel;
 use crate::mesh::MeshSettings;
 use crate::world::{World, WorldError};
 use std::sync::Arc;
 use std::time::Instant;
 
-/// A scene and the truth about it.
+/// A scene and what is known about it.
 pub struct Bench {
-    /// The worlds that were asked for, the first one with the mesh that is automatic.
+    /// The worlds that were asked for, the first one as the scene was opened.
     worlds: Vec<(MeshSettings, Arc<World>)>,
     pub reference: Reference,
+    pub memory: Memory,
+    cache: Option<Cache>,
 }
 
 impl Bench {
-    /// `world` is the scene with this mesh.
-    pub fn new(world: Arc<World>, mesh: MeshSettings, reference: Reference) -> Self {
-        Self { worlds: vec![(mesh, world)], reference }
+    /// `world` is the scene with this mesh. Goes on from what the cache knows of it.
+    pub fn open(world: Arc<World>, mesh: MeshSettings, cache: Option<Cache>) -> Self {
+        let reference = Reference::open(world.clone(), cache.as_ref());
+        let memory = cache.as_ref().map(|cache| Memory::load(cache, reference.key())).unwrap_or_default();
+        Self { worlds: vec![(mesh, world)], reference, memory, cache }
+    }
+
+    /// Keeps what is known now for the next time.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn keep(&self) -> Result<(), CacheError> {
+        let Some(cache) = &self.cache else { return Ok(()) };
+        self.reference.keep(cache)?;
+        self.memory.store(cache, self.reference.key())
     }
 
     /// The scene as it was opened.
@@ -41,14 +57,5 @@ impl Bench {
     /// Makes the truth better known until time is up, or there is no light.
     pub fn refine_until(&mut self, end: Instant, cancel: &Cancel) {
         while Instant::now() < end && !self.reference.truth().is_dark() && self.reference.refine(cancel) {}
-    }
-
-    /// Makes the truth better known until it is good enough for these, or time is up.
-    pub fn refine_for<'a>(&mut self, found: impl Fn() -> Vec<&'a Found>, end: Instant, cancel: &Cancel) {
-        let is_enough = |truth: &Truth| {
-            let errors: Vec<_> = found().into_iter().filter_map(|found| truth.error(found)).collect();
-            truth.is_dark() || !errors.is_empty() && errors.iter().all(|error| truth.is_enough_for(error))
-        };
-        while Instant::now() < end && !is_enough(self.reference.truth()) && self.reference.refine(cancel) {}
     }
 }

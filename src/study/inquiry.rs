@@ -1,17 +1,18 @@
 //! A search for settings, or a study, on a thread of its own.
 
 use super::bench::Bench;
-use super::memory::Memory;
 use super::recipe::Recipe;
 use super::seek::{Goal, Promise, Sought, seek};
 use super::sweep::{Progress, Study, study};
-use crate::accuracy::{Cache, CacheError, Error, Reference};
+use crate::accuracy::{Cache, Error};
 use crate::cancel::Cancel;
 use crate::errors::with_causes;
+use crate::mesh::MeshSettings;
 use crate::methods::Settings;
-use crate::worker::in_background;
+use crate::worker::{Background, Desk};
 use crate::world::World;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// What is asked.
@@ -29,13 +30,19 @@ pub enum Question {
 #[derive(Clone, Debug)]
 pub struct Answer {
     pub question: Question,
-    /// What is being done, in words; `None` when all is done.
-    pub doing: Option<String>,
-    /// What was found, at last.
-    pub found: Option<Choice>,
-    pub study: Option<Arc<Study>>,
-    /// Whether all was done and there is no light.
-    pub is_dark: bool,
+    pub state: State,
+}
+
+#[derive(Clone, Debug)]
+pub enum State {
+    /// What is being done, in words.
+    Doing(String),
+    Found(Arc<Choice>),
+    Studied(Arc<Study>),
+    /// There is no light.
+    Dark,
+    /// It stopped, for this reason.
+    Failed(String),
 }
 
 /// A recipe that was chosen, and how far off its light was when it was tried.
@@ -48,114 +55,121 @@ pub struct Choice {
     pub promise: Promise,
 }
 
-/// An answer in the making. Dropping it cancels what is left of the work, without waiting.
-pub struct Inquiry {
-    cancel: Cancel,
-    latest: Arc<Mutex<Arc<Answer>>>,
+impl Answer {
+    /// Whether more of it is on its way.
+    pub fn is_awaited(&self) -> bool {
+        matches!(self.state, State::Doing(_))
+    }
 }
 
+/// An answer in the making. Dropping it cancels what is left of the work, without waiting.
+pub struct Inquiry(Background<Answer>);
+
 impl Inquiry {
-    /// Starts to look for an answer about a world. `wake` is called from the thread whenever more is known of it.
+    /// Starts to look for an answer about the scene of a world, whatever its mesh, with these seed and effects and defaults else.
+    /// `wake` is called from the thread whenever more is known of it.
     pub fn spawn(
         question: Question,
         world: Arc<World>,
-        settings: Settings,
+        settings: &Settings,
         cache: Option<Cache>,
         wake: impl Fn() + Send + 'static,
     ) -> Self {
-        let doing = Some("opening the scene".to_owned());
-        let answer = Answer { question, doing, found: None, study: None, is_dark: false };
-        let latest = Arc::new(Mutex::new(Arc::new(answer.clone())));
-        let cancel = Cancel::default();
-        let work = Work { cancel: cancel.clone(), latest: latest.clone(), answer, cache, wake };
-        let thread = std::thread::Builder::new().name("inquiry".to_owned());
-        thread.spawn(move || in_background(|| work.answer(world, &settings))).expect("the system can start a thread");
-        Self { cancel, latest }
+        let settings = Settings { seed: settings.seed, effects: settings.effects, ..Settings::default() };
+        let first = Answer { question, state: State::Doing("opening the scene".to_owned()) };
+        Self(Background::spawn("inquiry", first, wake, move |desk| {
+            let work = || answer(question, &world, &settings, cache, desk);
+            let state = catch_unwind(AssertUnwindSafe(work));
+            let state = state.unwrap_or_else(|_| State::Failed("a fault of the program".to_owned()));
+            desk.publish(Answer { question, state });
+        }))
     }
 
     /// What is known now. Never waits.
     pub fn latest(&self) -> Arc<Answer> {
-        lock(&self.latest).clone()
+        self.0.latest()
     }
 }
 
-impl Drop for Inquiry {
-    fn drop(&mut self) {
-        self.cancel.request();
+fn answer(question: Question, world: &World, settings: &Settings, cache: Option<Cache>, desk: &Desk<Answer>) -> State {
+    let start = Instant::now();
+    let mesh = MeshSettings::default();
+    let opened = match world.remeshed(&mesh, &desk.cancel) {
+        Ok(world) => Arc::new(world),
+        Err(reason) => return State::Failed(with_causes(&reason)),
+    };
+    let mut bench = Bench::open(opened, mesh, cache);
+    let tell = |doing: String| desk.publish(Answer { question, state: State::Doing(doing) });
+    let state = match question {
+        Question::Error(error) => {
+            tell("trying".to_owned());
+            sought(&mut bench, settings, &Goal { error: Some(error), end: None }, &desk.cancel)
+        }
+        Question::Time(time) => {
+            tell("trying".to_owned());
+            sought(&mut bench, settings, &Goal { error: None, end: Some(start + time) }, &desk.cancel)
+        }
+        Question::Study(budget) => {
+            let span = [start, start + budget];
+            let study = study(&mut bench, settings, span, &desk.cancel, &mut |Progress { done, of, recipe }| {
+                let what = recipe.map_or("the reference".to_owned(), Recipe::label);
+                tell(format!("{done} of {of}: {what}"));
+            });
+            if study.measured.is_empty() { State::Dark } else { State::Studied(Arc::new(study)) }
+        }
+    };
+    if let Err(error) = bench.keep() {
+        log::warn!("{}", with_causes(&error));
+    }
+    state
+}
+
+fn sought(bench: &mut Bench, settings: &Settings, goal: &Goal, cancel: &Cancel) -> State {
+    match seek(bench, settings, goal, cancel) {
+        Some(Sought { outcome, error, promise }) => {
+            let seconds = outcome.price.seconds;
+            State::Found(Arc::new(Choice { recipe: outcome.recipe, error, seconds, promise }))
+        }
+        None => State::Dark,
     }
 }
 
-fn lock(latest: &Mutex<Arc<Answer>>) -> MutexGuard<'_, Arc<Answer>> {
-    latest.lock().unwrap_or_else(PoisonError::into_inner)
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::methods::Solver;
+    use crate::scene::Scene;
 
-/// What the thread owns.
-struct Work<W> {
-    cancel: Cancel,
-    latest: Arc<Mutex<Arc<Answer>>>,
-    answer: Answer,
-    cache: Option<Cache>,
-    wake: W,
-}
-
-impl<W: Fn()> Work<W> {
-    fn answer(mut self, world: Arc<World>, settings: &Settings) {
+    /// The end of an inquiry about a scene that is cut as someone has set it.
+    fn end(scene: &str, question: Question) -> State {
+        let scene = Scene::open(scene).expect("a built-in scene");
+        let coarse = MeshSettings { element_size: Some(0.5), ..MeshSettings::default() };
+        let world = Arc::new(World::build(scene, &coarse, &Cancel::default()).expect("a world"));
+        let settings = Settings { mesh: coarse, solver: Solver::Jacobi, ..Settings::default() };
+        let inquiry = Inquiry::spawn(question, world, &settings, None, || ());
         let start = Instant::now();
-        let reference = match &self.cache {
-            Some(cache) => Reference::from_cache(world.clone(), cache),
-            None => Reference::new(world.clone()),
-        };
-        let key = *reference.key();
-        let mut memory = self.cache.as_ref().map(|cache| Memory::load(cache, &key)).unwrap_or_default();
-        let mut bench = Bench::new(world, settings.mesh, reference);
-        self.tell("trying");
-        match self.answer.question {
-            Question::Error(error) => {
-                self.seek(&mut bench, settings, &Goal { error: Some(error), end: None }, &mut memory);
+        loop {
+            let answer = inquiry.latest();
+            if !answer.is_awaited() {
+                return answer.state.clone();
             }
-            Question::Time(time) => {
-                self.seek(&mut bench, settings, &Goal { error: None, end: Some(start + time) }, &mut memory);
-            }
-            Question::Study(budget) => self.study(&mut bench, settings, [start, start + budget], &mut memory),
-        }
-        if let Some(cache) = &self.cache {
-            let kept: Result<(), CacheError> = bench.reference.keep(cache).and_then(|()| memory.store(cache, &key));
-            if let Err(error) = kept {
-                log::warn!("{}", with_causes(&error));
-            }
-        }
-        self.answer.doing = None;
-        self.publish();
-    }
-
-    fn seek(&mut self, bench: &mut Bench, settings: &Settings, goal: &Goal, memory: &mut Memory) {
-        match seek(bench, settings, goal, memory, &self.cancel) {
-            Some(Sought { outcome, error, promise }) => {
-                let seconds = outcome.seconds;
-                self.answer.found = Some(Choice { recipe: outcome.recipe, error, seconds, promise });
-            }
-            None => self.answer.is_dark = true,
+            assert!(start.elapsed() < Duration::from_secs(60), "{answer:?}");
+            std::thread::sleep(Duration::from_millis(5));
         }
     }
 
-    fn study(&mut self, bench: &mut Bench, settings: &Settings, span: [Instant; 2], memory: &mut Memory) {
-        let cancel = self.cancel.clone();
-        let study = study(bench, settings, span, &cancel, &mut |Progress { done, of, recipe }| {
-            let what = recipe.map_or("the reference".to_owned(), Recipe::label);
-            self.tell(&format!("{done} of {of}: {what}"));
-        });
-        memory.note_all(&study.measured);
-        self.answer.is_dark = study.measured.is_empty();
-        self.answer.study = Some(Arc::new(study));
+    #[test]
+    fn an_error_is_reached_whatever_the_settings_are() {
+        let State::Found(choice) = end("empty-box", Question::Error(0.15)) else { panic!("nothing was found") };
+        assert!(choice.error.rms <= 0.15 && choice.seconds > 0.0, "{choice:?}");
+        assert_ne!(choice.recipe.settings.solver, Solver::Jacobi);
+        let applied = choice.recipe.applied_to(&Settings { seed: 0, ..Settings::default() });
+        assert_eq!(applied.image, Settings::default().image);
     }
 
-    fn tell(&mut self, doing: &str) {
-        self.answer.doing = Some(doing.to_owned());
-        self.publish();
-    }
-
-    fn publish(&self) {
-        *lock(&self.latest) = Arc::new(self.answer.clone());
-        (self.wake)();
+    #[test]
+    fn without_light_that_is_the_answer() {
+        assert!(matches!(end("ao-study", Question::Error(0.1)), State::Dark));
+        assert!(matches!(end("ao-study", Question::Study(Duration::from_secs(5))), State::Dark));
     }
 }

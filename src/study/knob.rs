@@ -101,6 +101,16 @@ pub enum Setting {
     Name(&'static str),
 }
 
+impl serde::Serialize for Setting {
+    /// A number, or its name.
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Number(number) => serializer.serialize_f64(*number),
+            Self::Automatic | Self::Name(_) => serializer.collect_str(self),
+        }
+    }
+}
+
 impl fmt::Display for Setting {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -147,7 +157,7 @@ pub fn gains(measured: &[&Measured]) -> Vec<Gain> {
     for from in measured {
         for to in measured.iter().filter(|to| to.recipe.way == from.recipe.way) {
             let Some((by, knob, turn)) = turn(&from.recipe, &to.recipe) else { continue };
-            let (time, error) = (to.seconds / from.seconds, to.error.rms / from.error.rms);
+            let (time, error) = (to.price.seconds / from.price.seconds, to.error.rms / from.error.rms);
             let gain = Gain { way: from.recipe.way, by, knob, turn, time, error };
             match pairs.iter_mut().find(|pair| pair.gain.is_like(&gain)) {
                 Some(pair) => pair.take_in(&gain),
@@ -255,16 +265,14 @@ mod tests {
     use crate::accuracy::Error;
     use crate::mesh::MeshSettings;
     use crate::methods::{FormFactorMethod, Settings};
+    use crate::study::Price;
 
     fn measured(way: Way, settings: Settings, seconds: f64, rms: f64) -> Measured {
         Measured {
             run: 0,
             recipe: Recipe { way, settings },
             is_finished: true,
-            seconds,
-            all_seconds: seconds,
-            rays: 0,
-            bytes: 0,
+            price: Price { seconds, ..Price::default() },
             error: Error { rms, ..Error::default() },
         }
     }

@@ -1,7 +1,7 @@
 //! What runs on a scene have cost and brought on this machine, kept for whoever asks for a budget.
 
+use super::attempt::Price;
 use super::recipe::Recipe;
-use super::sweep::Measured;
 use crate::accuracy::{Cache, CacheError, Key};
 
 /// So many runs of a scene are kept, the newest.
@@ -42,17 +42,11 @@ impl Memory {
     }
 
     /// Takes a run in; of the same recipe the newest counts.
-    pub fn note(&mut self, recipe: Recipe, [seconds, all_seconds]: [f64; 2], error: f64) {
+    pub fn note(&mut self, recipe: Recipe, price: &Price, error: f64) {
+        let Price { seconds, all_seconds, .. } = *price;
         let known = Known { recipe, seconds, all_seconds, error, threads: rayon::current_num_threads() };
         self.known.retain(|old| old.recipe != recipe || old.threads != known.threads);
         self.known.push(known);
-    }
-
-    /// Takes all finished runs of a study in.
-    pub fn note_all(&mut self, measured: &[Measured]) {
-        for run in measured.iter().filter(|run| run.is_finished) {
-            self.note(run.recipe, [run.seconds, run.all_seconds], run.error.rms);
-        }
     }
 
     /// Runs on as many threads as there are now.
@@ -71,10 +65,11 @@ mod tests {
     #[test]
     fn the_newest_of_a_recipe_counts_and_all_is_read_again() {
         let mut memory = Memory::default();
+        let price = |seconds| Price { seconds, all_seconds: 2.0 * seconds, ..Price::default() };
         let recipe = Recipe { way: Way::Radiosity, settings: Settings::default() };
-        memory.note(recipe, [1.0, 1.5], 0.1);
-        memory.note(Recipe { way: Way::PhotonMap, ..recipe }, [2.0, 2.5], 0.2);
-        memory.note(recipe, [3.0, 3.5], 0.3);
+        memory.note(recipe, &price(1.0), 0.1);
+        memory.note(Recipe { way: Way::PhotonMap, ..recipe }, &price(2.0), 0.2);
+        memory.note(recipe, &price(3.0), 0.3);
         let seconds: Vec<f64> = memory.runs().map(|known| known.seconds).collect();
         assert_eq!(seconds, [2.0, 3.0]);
         let text = serde_json::to_string(&memory.known).expect("text");

@@ -9,9 +9,9 @@ mod recipe;
 mod seek;
 mod sweep;
 
-pub use attempt::{CannotTry, Light, Outcome, Verdict, attempt};
+pub use attempt::{CannotTry, Light, Outcome, Price, Verdict, attempt};
 pub use bench::Bench;
-pub use inquiry::{Answer, Choice, Inquiry, Question};
+pub use inquiry::{Answer, Choice, Inquiry, Question, State};
 pub use knob::{Gain, Knob, Setting, Turn, gains};
 pub use memory::{Known, Memory};
 pub use recipe::{Recipe, Way};

@@ -152,7 +152,34 @@ impl Recipe {
                 options += &format!(" {} {setting}", knob.option());
             }
         }
+        options + &self.other_options()
+    }
+
+    /// Those that are no knobs here, where they are not as the program sets them by itself.
+    fn other_options(&self) -> String {
+        let (own, default) = (&self.settings, Settings::default());
+        let mut options = String::new();
+        let has_photons = matches!(self.way, Way::PhotonMap | Way::FinalGather);
+        if has_photons && own.photons.caustic_count != default.photons.caustic_count {
+            options += &format!(" --caustic-photons {}", own.photons.caustic_count);
+        }
+        let has_patches = matches!(self.way, Way::Radiosity | Way::RadiosityDirect);
+        if has_patches && own.mesh.elements_per_patch_edge != default.mesh.elements_per_patch_edge {
+            options += &format!(" --patch-edge {}", own.mesh.elements_per_patch_edge);
+        }
         options
+    }
+
+    /// These settings with those that the recipe is about, for light that is everywhere.
+    pub fn applied_to(&self, settings: &Settings) -> Settings {
+        let own = self.settings;
+        match self.way {
+            Way::PhotonMap => Settings { photons: own.photons, ..*settings },
+            _ => {
+                let Settings { photons, image, occlusion, .. } = *settings;
+                Settings { photons, image, occlusion, ..own }
+            }
+        }
     }
 
     /// What it is called, in a few words: what is not as in other recipes is said by the caller.
@@ -167,6 +194,7 @@ impl Recipe {
 mod tests {
     use super::*;
     use crate::mesh::MeshSettings;
+    use crate::methods::PhotonSettings;
 
     #[test]
     fn options_say_all_that_matters_and_nothing_else() {
@@ -181,5 +209,8 @@ mod tests {
         );
         let photons = Recipe { way: Way::PhotonMap, settings }.options();
         assert_eq!(photons, "--method photon-map --photons 200000 --nearest 100");
+        let few = PhotonSettings { caustic_count: 5, ..settings.photons };
+        let caustic = Recipe { way: Way::PhotonMap, settings: Settings { photons: few, ..settings } }.options();
+        assert_eq!(caustic, "--method photon-map --photons 200000 --nearest 100 --caustic-photons 5");
     }
 }

@@ -3,7 +3,7 @@
 //! What was measured on this scene before is tried first. Else each family of recipes is tried where it is cheap; how its errors
 //! and times change from one member to the next says which is to be tried next, and how finely.
 
-use super::attempt::{Outcome, Verdict, attempt};
+use super::attempt::{Outcome, Price, Verdict, attempt};
 use super::bench::Bench;
 use super::memory::{Known, Memory};
 use super::recipe::{Recipe, Way};
@@ -28,8 +28,8 @@ const LEAST_TURNS: f64 = 0.25;
 const LEVEL: f64 = 0.97;
 /// Longest edge of an element to begin with, in those of the automatic mesh.
 const COARSE: f32 = 4.0;
-/// Of what can be afforded, what is taken by what is safe to begin with.
-const SMALL_PART: f64 = 0.3;
+/// The same of the first attempt, before there is anything to fall back on.
+const SMALL_PART: f64 = 0.2;
 /// What an attempt aims at, in what is safe.
 const AIM: f64 = 0.95;
 /// When a search without a limit is given up.
@@ -63,13 +63,7 @@ pub struct Sought {
 }
 
 /// Looks for light that meets the goal; the best there is where the goal cannot be met. `None` where there is no light.
-pub fn seek(
-    bench: &mut Bench,
-    settings: &Settings,
-    goal: &Goal,
-    memory: &mut Memory,
-    cancel: &Cancel,
-) -> Option<Sought> {
+pub fn seek(bench: &mut Bench, settings: &Settings, goal: &Goal, cancel: &Cancel) -> Option<Sought> {
     let start = Instant::now();
     let end = goal.end.unwrap_or(start + LONGEST);
     let mut search = Search { settings, goal, end, cancel, best: None };
@@ -77,18 +71,18 @@ pub fn seek(
     if bench.reference.truth().is_dark() {
         return None;
     }
-    if let Some(known) = search.known(memory) {
-        search.follow(bench, memory, &known.recipe, Promise { error: Some(known.error), seconds: Some(known.seconds) });
+    if let Some(known) = search.known(&bench.memory) {
+        search.follow(bench, &known.recipe, Promise { error: Some(known.error), seconds: Some(known.seconds) });
     }
     let mut families = families(bench, settings);
     for family in &mut families {
-        family.remember(memory);
+        family.remember(&bench.memory);
     }
     while !search.is_over(bench) {
         let Some((family, turns)) = search.choose(&families) else { break };
         let promise = families[family].promise(turns);
         let recipe = families[family].recipe(turns);
-        let tried = search.follow(bench, memory, &recipe, promise);
+        let tried = search.follow(bench, &recipe, promise);
         families[family].note(turns, tried);
     }
     if goal.error.is_none() {
@@ -109,9 +103,11 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Seconds that the next attempt may be expected to take.
+    /// Seconds that the next attempt may be expected to take: where all is to be had from the time, a small part as long as
+    /// there is nothing to fall back on.
     fn affordable(&self) -> f64 {
-        CAREFUL * self.end.saturating_duration_since(Instant::now()).as_secs_f64()
+        let part = if self.goal.error.is_none() && self.best.is_none() { SMALL_PART } else { CAREFUL };
+        part * self.end.saturating_duration_since(Instant::now()).as_secs_f64()
     }
 
     /// A truth that is twice as good as what is wanted of the light, or as good as a part of the time allows.
@@ -142,7 +138,7 @@ impl Search<'_> {
                 good.min_by(|a, b| a.all_seconds.total_cmp(&b.all_seconds))
             }
             None => {
-                let quick = runs.filter(|known| known.all_seconds <= SMALL_PART * self.affordable());
+                let quick = runs.filter(|known| known.all_seconds <= self.affordable());
                 quick.min_by(|a, b| a.error.total_cmp(&b.error))
             }
         };
@@ -192,7 +188,7 @@ impl Search<'_> {
     }
 
     /// Follows a recipe until its end or until the goal is met; what came of it at last, if anything did.
-    fn follow(&mut self, bench: &mut Bench, memory: &mut Memory, recipe: &Recipe, promise: Promise) -> Option<Tried> {
+    fn follow(&mut self, bench: &mut Bench, recipe: &Recipe, promise: Promise) -> Option<Tried> {
         let truth = bench.reference.truth().clone();
         let (end, wanted) = (self.end, self.goal.error);
         let mut last: Option<(Outcome, Error)> = None;
@@ -206,10 +202,9 @@ impl Search<'_> {
             log::info!("{}: {reason}", recipe.options());
         }
         let (outcome, error) = last?;
-        let (seconds, percent) = (outcome.all_seconds, 100.0 * error.rms);
-        log::info!("{percent:.2} % in {seconds:.2} s, expected {promise:?}: {}", outcome.recipe.options());
-        memory.note(outcome.recipe, [outcome.seconds, outcome.all_seconds], error.rms);
-        let (seconds, all_seconds) = (outcome.seconds, outcome.all_seconds);
+        bench.memory.note(outcome.recipe, &outcome.price, error.rms);
+        let Price { seconds, all_seconds, .. } = outcome.price;
+        log::info!("{:.4} in {all_seconds:.2} s, expected {promise:?}: {}", error.rms, outcome.recipe.options());
         let tried = Tried { seconds, all_seconds, error: error.rms, is_finished: outcome.is_finished };
         let is_better = self.best.as_ref().is_none_or(|(.., best)| error.rms < *best);
         if is_better {

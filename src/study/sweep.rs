@@ -1,10 +1,10 @@
 //! A study of one scene: which recipes are tried, in which order, and what came of them.
 
-use super::attempt::{Outcome, Verdict, attempt};
+use super::attempt::{Outcome, Price, Verdict, attempt};
 use super::bench::Bench;
 use super::knob::{Gain, gains};
 use super::recipe::{Recipe, Way};
-use crate::accuracy::{Error, Offer, Truth, front, slope};
+use crate::accuracy::{Error, Offer, Truth, front, slope_at_end};
 use crate::cancel::Cancel;
 use crate::choice::Choice;
 use crate::errors::with_causes;
@@ -21,9 +21,6 @@ const PATHS: f64 = 0.15;
 const AT_MOST: f64 = 0.2;
 const FAIR_SHARES: f64 = 4.0;
 
-/// A slope is that of the last part of a run: from its end back to where it had taken this many times less.
-const LAST: f64 = 10.0;
-
 /// An outcome and how far off it is.
 #[derive(Clone, Debug)]
 pub struct Measured {
@@ -31,12 +28,7 @@ pub struct Measured {
     pub run: usize,
     pub recipe: Recipe,
     pub is_finished: bool,
-    /// Of the solver.
-    pub seconds: f64,
-    /// From the cutting of the mesh to the measuring of the error.
-    pub all_seconds: f64,
-    pub rays: u64,
-    pub bytes: u64,
+    pub price: Price,
     pub error: Error,
 }
 
@@ -67,7 +59,8 @@ pub struct Progress<'a> {
     pub recipe: Option<&'a Recipe>,
 }
 
-/// Tries recipes on a scene until `end`. `tell` hears how far it is.
+/// Tries recipes on a scene until `end`, and keeps in mind what they cost; ends at once where there is no light. `tell` hears how
+/// far it is.
 pub fn study(
     bench: &mut Bench,
     settings: &Settings,
@@ -75,6 +68,9 @@ pub fn study(
     cancel: &Cancel,
     tell: &mut dyn FnMut(&Progress<'_>),
 ) -> Study {
+    if !bench.world().census.light_may_arrive {
+        return Study { elapsed: start.elapsed(), ..Study::default() };
+    }
     let budget = end.saturating_duration_since(start);
     let end_of_recipes = start + budget.mul_f64(RECIPES);
     let end_of_sweep = end_of_recipes - budget.mul_f64(PATHS);
@@ -98,6 +94,9 @@ pub fn study(
     tell(&Progress { done: recipes.len(), of: recipes.len(), recipe: None });
     bench.refine_until(end, cancel);
     let mut study = judged(&outcomes, bench.reference.truth());
+    for run in study.measured.iter().filter(|run| run.is_finished) {
+        bench.memory.note(run.recipe, &run.price, run.error.rms);
+    }
     study.refused = refused;
     study.elapsed = start.elapsed();
     study.threads = rayon::current_num_threads();
@@ -111,8 +110,8 @@ fn left(now: Instant, end: Instant) -> Duration {
 /// Outcomes held against the truth, and what follows from them.
 fn judged(outcomes: &[(usize, Outcome)], truth: &Arc<Truth>) -> Study {
     let measure = |(run, outcome): &(usize, Outcome)| {
-        let Outcome { recipe, is_finished, seconds, all_seconds, rays, bytes, ref found, .. } = *outcome;
-        Some(Measured { run: *run, recipe, is_finished, seconds, all_seconds, rays, bytes, error: truth.error(found)? })
+        let Outcome { recipe, is_finished, price, ref found, .. } = *outcome;
+        Some(Measured { run: *run, recipe, is_finished, price, error: truth.error(found)? })
     };
     let measured: Vec<Measured> = outcomes.iter().filter_map(measure).collect();
     let offers: Vec<Offer> = measured.iter().map(Measured::offer).collect();
@@ -129,18 +128,17 @@ fn judged(outcomes: &[(usize, Outcome)], truth: &Arc<Truth>) -> Study {
 
 impl Measured {
     pub fn offer(&self) -> Offer {
-        Offer { seconds: self.seconds, error: self.error.rms }
+        Offer { seconds: self.price.seconds, error: self.error.rms }
     }
 
     /// The last of its run.
     pub fn is_last(&self, all: &[Self]) -> bool {
         let last = all.iter().rfind(|other| other.run == self.run);
-        last.is_some_and(|last| last.seconds == self.seconds)
+        last.is_some_and(|last| last.price == self.price)
     }
 }
 
-/// Of the longest run of a way that has nothing to prepare, over the last tenfold of its time: what it costs to begin, and the
-/// first points of a sequence, which are spread better than later ones can be, say nothing of where it leads.
+/// Of the longest run of a way that has nothing to prepare.
 fn slope_of(way: Way, measured: &[Measured]) -> Option<f64> {
     if !matches!(way, Way::PhotonMap | Way::DiffuseAo | Way::Reference) {
         return None;
@@ -151,8 +149,7 @@ fn slope_of(way: Way, measured: &[Measured]) -> Option<f64> {
     };
     let runs = measured.iter().map(|measured| measured.run).max()? + 1;
     let longest = (0..runs).map(of_run).max_by_key(Vec::len)?;
-    let from = longest.last()?.seconds / LAST;
-    slope(&longest.into_iter().filter(|offer| offer.seconds >= from).collect::<Vec<_>>())
+    slope_at_end(&longest)
 }
 
 /// What is tried: around the defaults, one knob at a time, the cheap before the dear, and paths last.

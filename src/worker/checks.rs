@@ -1,9 +1,8 @@
 //! The gallery of hard cases on a thread of its own.
 
-use super::pool;
-use crate::cancel::Cancel;
+use super::background::{Background, Desk};
 use crate::hard_cases::{Case, Row, cases};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::Arc;
 
 /// How far the checks are.
 #[derive(Clone, Debug, Default)]
@@ -16,10 +15,7 @@ pub struct CheckReport {
 }
 
 /// A run of all hard cases in the background. Dropping it cancels what is left of it, without waiting.
-pub struct Checks {
-    cancel: Cancel,
-    latest: Arc<Mutex<Arc<CheckReport>>>,
-}
+pub struct Checks(Background<CheckReport>);
 
 impl Checks {
     /// Starts the run. `wake` is called from its thread after every new report.
@@ -29,52 +25,24 @@ impl Checks {
 
     /// The same with other cases.
     pub fn spawn_with(cases: Vec<&'static Case>, wake: impl Fn() + Send + 'static) -> Self {
-        let (cancel, latest) = (Cancel::default(), Arc::<Mutex<Arc<CheckReport>>>::default());
-        let run = Run { cancel: cancel.clone(), latest: latest.clone(), wake };
-        let thread = std::thread::Builder::new().name("checks".to_owned());
-        thread.spawn(|| pool::in_background(|| run.all(cases))).expect("the system can start a thread");
-        Self { cancel, latest }
+        Self(Background::spawn("checks", CheckReport::default(), wake, |desk| run_all(cases, desk)))
     }
 
     /// The newest report. Never waits for a case.
     pub fn latest(&self) -> Arc<CheckReport> {
-        lock(&self.latest).clone()
+        self.0.latest()
     }
 }
 
-impl Drop for Checks {
-    fn drop(&mut self) {
-        self.cancel.request();
+fn run_all(cases: Vec<&'static Case>, desk: &Desk<CheckReport>) {
+    let mut report = CheckReport::default();
+    for case in cases {
+        report.running = Some(case.name);
+        desk.publish(report.clone());
+        let Some(rows) = case.run(&desk.cancel) else { return };
+        report.rows.extend(rows);
     }
-}
-
-fn lock(latest: &Mutex<Arc<CheckReport>>) -> MutexGuard<'_, Arc<CheckReport>> {
-    latest.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-/// What the thread owns.
-struct Run<W> {
-    cancel: Cancel,
-    latest: Arc<Mutex<Arc<CheckReport>>>,
-    wake: W,
-}
-
-impl<W: Fn()> Run<W> {
-    fn all(self, cases: Vec<&'static Case>) {
-        let mut report = CheckReport::default();
-        for case in cases {
-            report.running = Some(case.name);
-            self.publish(&report);
-            let Some(rows) = case.run(&self.cancel) else { return };
-            report.rows.extend(rows);
-        }
-        report.running = None;
-        report.is_finished = true;
-        self.publish(&report);
-    }
-
-    fn publish(&self, report: &CheckReport) {
-        *lock(&self.latest) = Arc::new(report.clone());
-        (self.wake)();
-    }
+    report.running = None;
+    report.is_finished = true;
+    desk.publish(report);
 }

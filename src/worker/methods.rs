@@ -3,7 +3,7 @@
 use super::Refused;
 use super::run::{check_photons, start_method};
 use super::workshop::{CameraShot, ImageMethod, Lights, OcclusionMethod, PhotonMethod, PhotonProgress, Workshop};
-use crate::accuracy::{Cache, Found, ProbePoint, Reference, by_photons};
+use crate::accuracy::{Cache, Found, ProbePoint, Reference, by_photons, surfaces};
 use crate::cancel::Cancel;
 use crate::effects::Switches;
 use crate::methods::ambient_occlusion::VertexOcclusion;
@@ -67,11 +67,7 @@ impl Workshop for Methods {
     }
 
     fn reference(&mut self, world: &Arc<World>) -> Option<(Reference, Option<Cache>)> {
-        let reference = match &self.cache {
-            Some(cache) => Reference::from_cache(world.clone(), cache),
-            None => Reference::new(world.clone()),
-        };
-        Some((reference, self.cache.clone()))
+        Some((Reference::open(world.clone(), self.cache.as_ref()), self.cache.clone()))
     }
 
     fn image(&mut self, lights: Lights<'_, TracedPhotons>, shot: &CameraShot, settings: &Settings) -> ImageRun {
@@ -107,6 +103,11 @@ impl TracedPhotons {
     /// The photons that are there, in trees.
     pub fn maps(&self) -> Arc<PhotonMaps> {
         self.mapping.maps()
+    }
+
+    /// The surfaces at points that were spread over them.
+    pub fn surfaces(&self, points: &[ProbePoint]) -> Vec<Surface> {
+        surfaces(&self.transport, points)
     }
 
     /// The surface at a point, seen from the side that the unit `normal` faces; `None` where there is none.
@@ -150,10 +151,7 @@ impl PhotonMethod for TracedPhotons {
 
     fn count_pass(&mut self, points: &[ProbePoint]) {
         let transport = &self.transport;
-        let means = self.means.get_or_insert_with(|| {
-            let surface = |at: &ProbePoint| transport.surface_at(at.point, at.normal);
-            ProgressivePoints::new(points.iter().filter_map(surface).collect())
-        });
+        let means = self.means.get_or_insert_with(|| ProgressivePoints::new(surfaces(transport, points)));
         means.add(&self.mapping.maps(), Which::All);
     }
 

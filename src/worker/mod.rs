@@ -4,6 +4,7 @@
 //! ever waits for the other.
 
 mod account;
+mod background;
 mod checks;
 mod command;
 mod going;
@@ -19,11 +20,11 @@ mod track;
 mod workshop;
 
 pub use account::Entry;
+pub use background::{Background, Desk};
 pub use checks::{CheckReport, Checks};
 pub use command::{Command, LightKind, Place, Shown, Sight, Spot, Subject};
 pub use history::{Curve, CurvePoint};
 pub use methods::{Methods, TracedPhotons};
-pub use pool::in_background;
 pub use run::{PhotonRun, Refused, Run};
 pub use track::{Track, TrackPoint};
 pub use workshop::{CameraShot, ImageMethod, Lights, OcclusionMethod, PhotonMethod, PhotonProgress, Workshop};
@@ -128,7 +129,8 @@ impl Worker {
         let mailbox = Arc::new(Mailbox::default());
         let slot = Arc::new(Slot { latest: Mutex::default(), wake: Box::new(wake) });
         let solver = Solver::new(mailbox.clone(), slot.clone(), workshop);
-        let thread = std::thread::Builder::new().name("solver".to_owned()).spawn(|| in_background(|| solver.serve()));
+        let thread =
+            std::thread::Builder::new().name("solver".to_owned()).spawn(|| pool::in_background(|| solver.serve()));
         Self { mailbox, slot, thread: Some(thread.expect("the system can start a thread")) }
     }
 

@@ -43,6 +43,10 @@ fn a_study_keeps_its_budget_and_its_front_is_monotonic() {
     let slope = number(&report["slopes"]["reference"]);
     assert!((-0.75..-0.45).contains(&slope), "{slope}");
 
+    // What was measured is known to whoever asks for a budget.
+    let solved = json(&folder, "solve cornell-box --error 8 --json");
+    assert!(number(&solved["promised"]["seconds"]) > 0.0 && solved["kept"] == true, "{solved}");
+
     let table = std::fs::read_to_string(folder.path().join("cost/cost.csv")).expect("a table");
     let columns = cells(table.lines().next().expect("a line")).len();
     assert_eq!(table.lines().count(), runs.len() + 1);

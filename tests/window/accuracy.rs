@@ -1,6 +1,7 @@
 //! The chart of errors over time, and looking for settings that suit a wish.
 
-use super::stage::{LARGE, SMALL, SMALLEST, Stage, WORLD, tracks};
+use super::props::tracks;
+use super::stage::{LARGE, SMALL, SMALLEST, Stage, WORLD};
 use super::{click, key};
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
@@ -9,7 +10,8 @@ use lightwell::app::action::Action;
 use lightwell::app::model::{LowerPanel, Theme};
 use lightwell::app::wish::Wish;
 use lightwell::methods::Settings;
-use lightwell::study::{Answer, Choice, Promise, Question, Recipe, Way};
+use lightwell::study::{Answer, Choice, Promise, Question, Recipe, State, Way};
+use std::sync::Arc;
 use std::time::Duration;
 
 fn opened() -> Stage {
@@ -17,17 +19,15 @@ fn opened() -> Stage {
     Stage { lower: Some(LowerPanel::Accuracy), tracks: tracks(), truth: Some(truth), ..Stage::default() }
 }
 
-fn answer(doing: Option<&str>, rms: f64) -> Answer {
+fn answered(state: State) -> Option<Answer> {
+    Some(Answer { question: Question::Error(0.05), state })
+}
+
+fn found(rms: f64) -> Option<Answer> {
     let error = Error { rms, uncertainty: 0.001, floor: 0.01, noise: None };
     let recipe = Recipe { way: Way::PhotonMap, settings: Settings::default() };
     let promise = Promise { error: None, seconds: None };
-    Answer {
-        question: Question::Error(0.05),
-        doing: doing.map(str::to_owned),
-        found: doing.is_none().then_some(Choice { recipe, error, seconds: 0.5, promise }),
-        study: None,
-        is_dark: false,
-    }
+    answered(State::Found(Arc::new(Choice { recipe, error, seconds: 0.5, promise })))
 }
 
 #[test]
@@ -58,12 +58,14 @@ fn wishes_are_asked_for_by_buttons_and_answered_in_words() {
     let wish = Wish { error: 0.02, seconds: 3.0 };
     let stage = Stage { wish, ..opened() };
     assert_eq!(click(stage, "Use it"), [Action::Inquire(Question::Time(Duration::from_secs(3)))]);
-    let busy = Stage { answer: Some(answer(Some("3 of 9: Radiosity"), 0.0)), ..opened() };
+    let busy = Stage { answer: answered(State::Doing("3 of 9: Radiosity".to_owned())), ..opened() };
     assert_eq!(click(busy, "Stop"), [Action::StopInquiry]);
-    let kept = Stage { answer: Some(answer(None, 0.045)), ..opened() }.window(LARGE);
+    let kept = Stage { answer: found(0.045), ..opened() }.window(LARGE);
     kept.get_by_label_contains("4.50\u{2009}% ± 0.1\u{2009}% in 500\u{2009}ms by Photon map");
-    let missed = Stage { answer: Some(answer(None, 0.06)), ..opened() }.window(LARGE);
+    let missed = Stage { answer: found(0.06), ..opened() }.window(LARGE);
     missed.get_by_label_contains("not reached: 6.00\u{2009}%");
+    let failed = Stage { answer: answered(State::Failed("a fault of the program".to_owned())), ..opened() };
+    failed.window(LARGE).get_by_label("It stopped: a fault of the program");
 }
 
 /// Of the light on show alone.

@@ -1,7 +1,8 @@
 //! Windows with as much in them as can be, and where their texts are.
 
 use super::equation::equation;
-use super::stage::{ADAPTER, Stage, checks, curves, finding, gathered, image, patch, photons, solution, trail};
+use super::props::{checks, curves, finding, gathered, image, patch, photons, solution, trail};
+use super::stage::{ADAPTER, Stage};
 use egui::{Rect, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::NodeT;

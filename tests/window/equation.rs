@@ -1,6 +1,7 @@
 //! The rendering equation at a picked point, with its numbers.
 
-use super::stage::{LARGE, SMALL, Stage, WORLD, patch, showing};
+use super::props::patch;
+use super::stage::{LARGE, SMALL, Stage, WORLD, showing};
 use super::{click, key, thin};
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;

@@ -1,6 +1,7 @@
 //! The picked patch, diagrams and the hard cases.
 
-use super::stage::{Stage, checks, patch};
+use super::props::{checks, patch};
+use super::stage::Stage;
 use super::{click, key, thin};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, Vec2};

@@ -1,6 +1,7 @@
 //! Ambient occlusion on the mesh, and scenes that nothing else would show.
 
-use super::stage::{LARGE, Stage, finding, image, showing};
+use super::props::{finding, image};
+use super::stage::{LARGE, Stage, showing};
 use super::{click, key, thin};
 use egui::accesskit::{Role, Toggled};
 use egui::{Key, Modifiers};

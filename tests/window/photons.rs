@@ -1,6 +1,7 @@
 //! Views of photons and pictures from a camera: their settings, figures and picks.
 
-use super::stage::{LARGE, Stage, gathered, image, photons, showing, trail};
+use super::props::{gathered, image, photons, trail};
+use super::stage::{LARGE, Stage, showing};
 use super::{click, key, thin};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};

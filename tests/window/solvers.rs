@@ -1,6 +1,7 @@
 //! Solvers, form factors, their settings, and how runs converge.
 
-use super::stage::{LARGE, Stage, curves, solution};
+use super::props::{curves, solution};
+use super::stage::{LARGE, Stage};
 use super::{click, key, thin};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};

@@ -2,11 +2,12 @@
 
 mod commands;
 mod fake;
-mod inquiry;
+
 mod interruption;
 mod judging;
 mod lights;
 mod occlusion;
+mod picks;
 mod pictures;
 mod publishing;
 mod real;

@@ -1,8 +1,8 @@
 //! Error over solver time, both by their logarithms: one curve for each run on this scene, and what is wanted.
 
-use super::chart::decades;
+use super::chart::{color, decades, name};
 use super::widgets::chip;
-use crate::accuracy::{Offer, slope};
+use crate::accuracy::{Offer, slope_at_end};
 use crate::app::action::Action;
 use crate::app::chart::descriptions_of_tracks;
 use crate::app::format;
@@ -10,9 +10,9 @@ use crate::app::model::Model;
 use crate::app::theme::{Palette, UNIT};
 use crate::app::wish::Wish;
 use crate::choice::Choice as _;
-use crate::study::{Answer, Choice, Measured, Question, Way};
+use crate::study::{Answer, Choice, Measured, Question, State, Way};
 use crate::worker::{Track, TrackPoint};
-use egui::{Button, Color32, DragValue, Label, RichText, ScrollArea, Sense, Ui, Vec2, vec2};
+use egui::{Button, DragValue, Label, RichText, ScrollArea, Sense, Ui, Vec2, vec2};
 use egui_plot::{
     GridMark, HLine, HoverPosition, ItemId, Line, LineStyle, Plot, PlotPoints, PlotUi, Points, Polygon, VLine,
 };
@@ -24,8 +24,6 @@ const LEGEND_WIDTH: f32 = 76.0 * UNIT;
 /// What is on show before anything was measured: seconds and errors as powers of ten.
 const SECONDS: [f64; 2] = [-2.0, 1.0];
 const ERRORS: [f64; 2] = [-2.0, 0.0];
-/// A slope is that of the last part of a run: from its end back to where it had taken this many times less.
-const LAST: f64 = 10.0;
 /// How long a study from the window takes.
 const STUDY: Duration = Duration::from_secs(60);
 
@@ -63,7 +61,7 @@ fn controls(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
 
 /// A button that asks a question about the open scene.
 fn ask(ui: &mut Ui, model: &Model, label: &str, hover: &str, question: Question, actions: &mut Vec<Action>) {
-    let is_asking = model.inquiry.is_some_and(|answer| answer.doing.is_some());
+    let is_asking = model.inquiry.is_some_and(Answer::is_awaited);
     let can_ask = model.scene.is_some_and(|scene| !scene.is_dark()) && !is_asking;
     if ui.add_enabled(can_ask, Button::new(label)).on_hover_text(hover).clicked() {
         actions.push(Action::Inquire(question));
@@ -72,17 +70,17 @@ fn ask(ui: &mut Ui, model: &Model, label: &str, hover: &str, question: Question,
 
 /// How far an answer is, or what it is.
 fn tell(ui: &mut Ui, answer: &Answer, actions: &mut Vec<Action>) {
-    if let Some(doing) = &answer.doing {
-        if ui.button("Stop").clicked() {
-            actions.push(Action::StopInquiry);
+    let text = match &answer.state {
+        State::Doing(doing) => {
+            if ui.button("Stop").clicked() {
+                actions.push(Action::StopInquiry);
+            }
+            doing.clone()
         }
-        ui.add(Label::new(RichText::new(doing).small().weak()).truncate());
-        return;
-    }
-    let text = match (&answer.found, answer.is_dark) {
-        (_, true) => "There is no light to measure".to_owned(),
-        (Some(choice), false) => in_words(answer.question, choice),
-        (None, false) => "Studied: each dot is a state of a run".to_owned(),
+        State::Found(choice) => in_words(answer.question, choice),
+        State::Studied(_) => "Studied: each dot is a state of a run".to_owned(),
+        State::Dark => "There is no light to measure".to_owned(),
+        State::Failed(reason) => format!("It stopped: {reason}"),
     };
     ui.add(Label::new(RichText::new(&text).small()).truncate()).on_hover_text(text);
 }
@@ -146,13 +144,11 @@ fn plot(ui: &mut Ui, model: &Model, descriptions: &[String], size: Vec2, actions
     let shown = plot.show(ui, |plot| {
         floor(plot, model, range, palette);
         wish(plot, model.wish, palette);
-        if let Some(study) = model.inquiry.and_then(|answer| answer.study.as_deref()) {
-            studied(plot, &study.measured, palette);
-        }
+        studied(plot, measured(model), palette);
         for (index, (track, description)) in model.tracks.iter().zip(descriptions).enumerate() {
             let points: Vec<[f64; 2]> = track.points.iter().filter_map(logarithms).collect();
             let is_last = index + 1 == model.tracks.len();
-            let (name, color) = (name(track, description), color(palette, track));
+            let (name, color) = (name(track.number, description), color(palette, track.number));
             let line = Line::new(&name, PlotPoints::from(points.clone())).id(track.number).color(color);
             plot.line(line.width(if is_last { 3.0 } else { 1.5 }));
             plot.points(Points::new(name, points).id((track.number, "points")).color(color).radius(2.5));
@@ -173,8 +169,7 @@ fn plot(ui: &mut Ui, model: &Model, descriptions: &[String], size: Vec2, actions
 /// The corners of what is on show, as powers of ten: whole ones, so that they rest while runs go on.
 fn range(model: &Model) -> [[f64; 2]; 2] {
     let [mut least, mut most] = [[SECONDS[0], ERRORS[0]], [SECONDS[1], ERRORS[1]]];
-    let studied = model.inquiry.and_then(|answer| answer.study.as_deref());
-    let of_study = studied.iter().flat_map(|study| &study.measured).filter_map(|measured| {
+    let of_study = measured(model).iter().filter_map(|measured| {
         let Offer { seconds, error } = measured.offer();
         powers(seconds, error)
     });
@@ -207,10 +202,18 @@ fn wish(plot: &mut PlotUi<'_>, wish: Wish, palette: Palette) {
     plot.vline(VLine::new("Time allowed", seconds).color(palette.accent).style(style).allow_hover(false));
 }
 
-/// All that a study has measured, as dots.
+/// All that a study has measured, if there was one.
+fn measured<'a>(model: &Model<'a>) -> &'a [Measured] {
+    match model.inquiry {
+        Some(Answer { state: State::Studied(study), .. }) => &study.measured,
+        _ => &[],
+    }
+}
+
+/// What a study has measured, as dots.
 fn studied(plot: &mut PlotUi<'_>, measured: &[Measured], palette: Palette) {
     for measured in measured {
-        let Some(at) = powers(measured.seconds, measured.error.rms) else { continue };
+        let Some(at) = powers(measured.price.seconds, measured.error.rms) else { continue };
         let way = Way::ALL.iter().position(|way| *way == measured.recipe.way).unwrap_or_default();
         let color = palette.curves[way % palette.curves.len()].gamma_multiply(0.6);
         plot.points(Points::new(measured.recipe.label(), vec![at]).color(color).radius(1.5));
@@ -236,8 +239,8 @@ fn legend(ui: &mut Ui, model: &Model, descriptions: &[String], actions: &mut Vec
         }
         for (track, description) in model.tracks.iter().zip(descriptions).rev() {
             ui.horizontal_top(|ui| {
-                chip(ui, color(palette, track));
-                let text = format!("{}: {}", name(track, description), state(track));
+                chip(ui, color(palette, track.number));
+                let text = format!("{}: {}", name(track.number, description), state(track));
                 let label = ui.add(Label::new(RichText::new(&text).small()).truncate().sense(Sense::click()));
                 if label.on_hover_text(format!("{text}\nA click brings these settings back")).clicked() {
                     actions.push(Action::ApplySettings(track.settings));
@@ -272,18 +275,8 @@ fn without_runs(model: &Model) -> &'static str {
 fn state(track: &Track) -> String {
     let Some(last) = track.points.last() else { return String::new() };
     let error = format::percent(last.error.rms);
-    let from = last.seconds / LAST;
-    let recent = track.points.iter().filter(|point| point.seconds >= from);
-    let offers: Vec<Offer> = recent.map(|point| Offer { seconds: point.seconds, error: point.error.rms }).collect();
-    let slope = slope(&offers).map(|slope| format!(", slope {slope:.2}").replace('-', "−"));
+    let offers: Vec<Offer> =
+        track.points.iter().map(|point| Offer { seconds: point.seconds, error: point.error.rms }).collect();
+    let slope = slope_at_end(&offers).map(|slope| format!(", slope {slope:.2}").replace('-', "−"));
     format!("{error}{}", slope.unwrap_or_default())
-}
-
-fn name(track: &Track, description: &str) -> String {
-    format!("{} {description}", track.number)
-}
-
-/// A run keeps its colour as long as it is shown.
-fn color(palette: Palette, track: &Track) -> Color32 {
-    palette.curves[(track.number as usize - 1) % palette.curves.len()]
 }

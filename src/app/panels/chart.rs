@@ -7,12 +7,10 @@ use crate::app::format;
 use crate::app::model::Model;
 use crate::app::theme::{Palette, UNIT};
 use crate::choice::Choice;
-use crate::worker::Curve;
 use egui::{Color32, Label, RichText, ScrollArea, Ui, vec2};
 use egui_plot::{
     GridInput, GridMark, HLine, HoverPosition, Line, LineStyle, Plot, PlotPoint, PlotPoints, uniform_grid_spacer,
 };
-use std::sync::Arc;
 
 /// Room below the stop limit, in powers of ten.
 const BELOW_LIMIT: f64 = 0.2;
@@ -84,8 +82,8 @@ fn plot(ui: &mut Ui, model: &Model, descriptions: &[String], size: egui::Vec2) {
         for (i, (curve, description)) in model.curves.iter().zip(descriptions).enumerate() {
             let is_under_way = i + 1 == model.curves.len();
             let points: PlotPoints = curve.points.iter().filter_map(|point| chart.point(point)).collect();
-            let line = Line::new(name(curve, description), points).id(curve.number);
-            plot.line(line.color(color(palette, curve)).width(if is_under_way { 3.0 } else { 1.5 }));
+            let line = Line::new(name(curve.number, description), points).id(curve.number);
+            plot.line(line.color(color(palette, curve.number)).width(if is_under_way { 3.0 } else { 1.5 }));
         }
     });
 }
@@ -127,8 +125,8 @@ fn legend(ui: &mut Ui, model: &Model, descriptions: &[String]) {
         }
         for (curve, description) in model.curves.iter().zip(descriptions).rev() {
             ui.horizontal_top(|ui| {
-                chip(ui, color(palette, curve));
-                let name = name(curve, description);
+                chip(ui, color(palette, curve.number));
+                let name = name(curve.number, description);
                 // What does not fit is told by the hover.
                 ui.add(Label::new(RichText::new(&name).small()).truncate()).on_hover_text(name);
             });
@@ -143,11 +141,12 @@ fn legend(ui: &mut Ui, model: &Model, descriptions: &[String]) {
     });
 }
 
-fn name(curve: &Arc<Curve>, description: &str) -> String {
-    format!("{} {description}", curve.number)
+/// What a run is called.
+pub fn name(number: u32, description: &str) -> String {
+    format!("{number} {description}")
 }
 
 /// A run keeps its colour as long as it is shown.
-fn color(palette: Palette, curve: &Curve) -> Color32 {
-    palette.curves[(curve.number as usize - 1) % palette.curves.len()]
+pub fn color(palette: Palette, number: u32) -> Color32 {
+    palette.curves[(number as usize - 1) % palette.curves.len()]
 }

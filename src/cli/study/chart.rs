@@ -77,7 +77,7 @@ fn ranges(study: &Study) -> (Range<f64>, Range<f64>) {
             .fold((f64::INFINITY, 0.0_f64), |(low, high), value| (low.min(value), high.max(value)));
         if low < high { low / 1.5..high * 1.5 } else { 0.01..100.0 }
     };
-    let seconds = range(&mut study.measured.iter().map(|measured| measured.seconds));
+    let seconds = range(&mut study.measured.iter().map(|measured| measured.price.seconds));
     let errors = range(&mut study.measured.iter().map(percent));
     (seconds, errors)
 }
@@ -109,7 +109,7 @@ fn runs(chart: &mut Chart<'_, '_>, study: &Study, way: Way) -> Result<(), Box<dy
         let points: Vec<(f64, f64)> = of_way
             .iter()
             .filter(|measured| measured.run == run && measured.error.rms > 0.0)
-            .map(|measured| (measured.seconds, percent(measured)))
+            .map(|measured| (measured.price.seconds, percent(measured)))
             .collect();
         chart.draw_series(LineSeries::new(points.iter().copied(), colour.mix(0.6).stroke_width(1)))?;
         chart.draw_series(PointSeries::<_, _, Circle<_, _>, _>::new(points, 2, colour.filled()))?;
@@ -128,7 +128,8 @@ fn runs(chart: &mut Chart<'_, '_>, study: &Study, way: Way) -> Result<(), Box<dy
 /// The runs that no other beats, joined.
 fn front(chart: &mut Chart<'_, '_>, study: &Study) -> Result<(), Box<dyn Error>> {
     let points = study.front.iter().map(|&index| &study.measured[index]);
-    let points: Vec<(f64, f64)> = points.filter(|on| on.error.rms > 0.0).map(|on| (on.seconds, percent(on))).collect();
+    let points: Vec<(f64, f64)> =
+        points.filter(|on| on.error.rms > 0.0).map(|on| (on.price.seconds, percent(on))).collect();
     let style = BLACK.stroke_width(2);
     chart
         .draw_series(LineSeries::new(points.iter().copied(), style))?

@@ -6,7 +6,7 @@ mod table;
 
 use super::run_options::SceneOptions;
 use super::{CliError, values};
-use crate::accuracy::{Cache, Reference};
+use crate::accuracy::Cache;
 use crate::cancel::Cancel;
 use crate::errors::with_causes;
 use crate::mesh::MeshSettings;
@@ -42,17 +42,10 @@ pub fn run(options: &Options) -> Result<(), CliError> {
     let mesh = options.scene.mesh(MeshSettings::default().elements_per_patch_edge);
     let world = options.scene.open(mesh.elements_per_patch_edge)?;
     let name = world.scene.name.clone();
-    let cache = Cache::of_user();
-    let reference = match &cache {
-        Some(cache) => Reference::from_cache(world.clone(), cache),
-        None => Reference::new(world.clone()),
-    };
-    let mut bench = Bench::new(world, mesh, reference);
+    let mut bench = Bench::open(world, mesh, Cache::of_user());
     let end = (start + budget).checked_sub(FOR_WRITING).unwrap_or(start);
     let study = study(&mut bench, &settings, [start, end], &Cancel::default(), &mut tell);
-    if let Some(cache) = &cache
-        && let Err(error) = bench.reference.keep(cache)
-    {
+    if let Err(error) = bench.keep() {
         eprintln!("warning: {}", with_causes(&error));
     }
     write_files(&options.output, &name, options.budget, &study)?;
@@ -101,9 +94,9 @@ fn json_of(scene: &str, budget: f64, study: &Study) -> Value {
                 "method": measured.recipe.way,
                 "options": measured.recipe.options(),
                 "finished": measured.is_finished,
-                "seconds": measured.seconds,
-                "rays": measured.rays,
-                "bytes": measured.bytes,
+                "seconds": measured.price.seconds,
+                "rays": measured.price.rays,
+                "bytes": measured.price.bytes,
                 "error": measured.error.rms,
                 "error_uncertainty": measured.error.uncertainty,
                 "noise": measured.error.noise,

@@ -13,7 +13,7 @@ pub fn summary(study: &Study) -> String {
         text += &format!(
             "{:>9} {:>9}   {}\n",
             percent(measured.error.rms),
-            seconds(measured.seconds),
+            seconds(measured.price.seconds),
             measured.recipe.options()
         );
     }
@@ -82,8 +82,8 @@ fn row(measured: &Measured) -> String {
         "| {} ± {} | {} | {} | `{}`{unfinished} |\n",
         percent(measured.error.rms),
         percent(measured.error.uncertainty),
-        seconds(measured.seconds),
-        memory(measured.bytes),
+        seconds(measured.price.seconds),
+        memory(measured.price.bytes),
         measured.recipe.options(),
     )
 }

@@ -14,11 +14,10 @@ const PUBLISH_INTERVAL: Duration = Duration::from_millis(250);
 impl<W: Workshop> Solver<W> {
     /// What there is to measure, for as long as nothing waits for it.
     pub(super) fn judging_to_do(&self, is_busy: bool) -> Option<Task> {
-        let world = self.snapshot.world.as_ref().filter(|world| world.census.light_may_arrive)?;
+        self.snapshot.world.as_ref().filter(|world| world.census.light_may_arrive)?;
         if self.is_hushed || self.judge.is_given_up || is_busy && !self.judge.may_interrupt() {
             return None;
         }
-        debug_assert!(self.judge.reference().is_none_or(|reference| reference.is_about(world)));
         let measured = [LightKind::Radiosity, LightKind::Photons].into_iter().find(|&kind| self.is_measure_due(kind));
         match measured {
             Some(kind) => Some(Task::Measure(kind)),

@@ -170,7 +170,7 @@ impl<W: Workshop> Solver<W> {
         self.history.record(solution.progress(), solution.elapsed);
         self.snapshot.curves = self.history.curves().to_vec();
         self.snapshot.solution = Some(Arc::new(solution));
-        self.inquiry.outdate();
+        self.picks.outdate();
     }
 
     pub(super) fn record_photons(&mut self) {

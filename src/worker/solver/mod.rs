@@ -17,7 +17,7 @@ use super::{Command, LightKind, Phase, Sight, Slot, Snapshot, Spot, Subject};
 use crate::errors::with_causes;
 use crate::scene::Scene;
 use easel::Easel;
-use picks::Inquiry;
+use picks::Picks;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -42,7 +42,7 @@ pub struct Solver<W: Workshop> {
     easel: Easel<W::Image>,
     history: History,
     /// What is picked in the light on surfaces.
-    inquiry: Inquiry,
+    picks: Picks,
     judge: Judge,
     /// Whether measuring waits for something else.
     is_hushed: bool,
@@ -87,7 +87,7 @@ impl<R> Default for Light<R> {
 enum Part {
     Light(LightKind),
     Picture,
-    Inquiry,
+    Picks,
     Truth,
 }
 
@@ -117,7 +117,7 @@ impl<W: Workshop> Solver<W> {
             occlusion: Light::default(),
             easel: Easel::default(),
             history: History::default(),
-            inquiry: Inquiry::default(),
+            picks: Picks::default(),
             judge: Judge::default(),
             is_hushed: false,
             spot: None,
@@ -277,7 +277,7 @@ impl<W: Workshop> Solver<W> {
                 self.easel.has_crashed = true;
                 "picture from the camera"
             }
-            Part::Inquiry => {
+            Part::Picks => {
                 self.forget_picked();
                 "look at what is picked"
             }

@@ -16,7 +16,7 @@ const REST: u32 = 20;
 
 /// The places that are picked in the world on show, and what there is to find out about them.
 #[derive(Default)]
-pub(super) struct Inquiry {
+pub(super) struct Picks {
     /// x′
     point: Option<Place>,
     /// x″
@@ -27,7 +27,7 @@ pub(super) struct Inquiry {
     rests_until: Option<Instant>,
 }
 
-impl Inquiry {
+impl Picks {
     /// Is told that something that the equation depends on has changed.
     pub(super) fn outdate(&mut self) {
         self.is_outdated = true;
@@ -45,8 +45,8 @@ impl<W: Workshop> Solver<W> {
     pub(super) fn pick(&mut self, place: Option<Place>) {
         match place {
             Some(place) if self.is_on_show(&place) => {
-                self.inquiry.point = Some(place);
-                self.inquiry.hurry();
+                self.picks.point = Some(place);
+                self.picks.hurry();
             }
             Some(_) => {}
             None => {
@@ -59,8 +59,8 @@ impl<W: Workshop> Solver<W> {
     /// Wishes to know what a second place sends to the first one.
     pub(super) fn pick_source(&mut self, place: Place) {
         if self.is_on_show(&place) {
-            self.inquiry.source = Some(place);
-            self.inquiry.hurry();
+            self.picks.source = Some(place);
+            self.picks.hurry();
         }
     }
 
@@ -70,25 +70,25 @@ impl<W: Workshop> Solver<W> {
 
     /// The picked patch, until it is known what it sees.
     pub(super) fn patch_to_look_from(&self) -> Option<u32> {
-        let patch = self.inquiry.point.as_ref()?.patch;
+        let patch = self.picks.point.as_ref()?.patch;
         let is_known = self.snapshot.picked.as_ref().is_some_and(|picked| picked.patch == patch);
         (!is_known).then_some(patch)
     }
 
     /// Computes what a patch sees by the method of the settings; if interrupted, the wish stays.
     pub(super) fn look_from(&mut self, patch: u32) {
-        self.at_work = Part::Inquiry;
+        self.at_work = Part::Picks;
         let Some(world) = self.snapshot.world.as_ref() else { return };
         if let Some(picked) = radiosity::pick(world, &self.snapshot.settings, patch, self.mailbox.step_cancel()) {
             self.snapshot.picked = Some(Arc::new(picked));
-            self.inquiry.hurry();
+            self.picks.hurry();
             self.publish();
         }
     }
 
     /// Whether there is something new to be said of the picked point, in a view that shows it.
     pub(super) fn is_equation_due(&self) -> bool {
-        let Inquiry { point, is_outdated, rests_until, .. } = &self.inquiry;
+        let Picks { point, is_outdated, rests_until, .. } = &self.picks;
         let is_resting = rests_until.is_some_and(|until| Instant::now() < until);
         let waits = is_resting && self.radiosity.going.is_running();
         point.is_some() && *is_outdated && !waits && self.subject() == Subject::Radiosity
@@ -96,23 +96,23 @@ impl<W: Workshop> Solver<W> {
 
     /// Says where the light at the picked point comes from; if interrupted, that is still to be done.
     pub(super) fn look_into_equation(&mut self) {
-        self.at_work = Part::Inquiry;
+        self.at_work = Part::Picks;
         let start = Instant::now();
         let snapshot = &self.snapshot;
         let (Some(world), Some(solution), Some(picked)) = (&snapshot.world, &snapshot.solution, &snapshot.picked)
         else {
-            self.inquiry.is_outdated = false;
+            self.picks.is_outdated = false;
             return;
         };
-        let Some(place) = &self.inquiry.point else { return };
+        let Some(place) = &self.picks.point else { return };
         let light = PickedLight::new(world, &snapshot.settings, solution, picked);
         let Some(balance) = light.balance(self.mailbox.step_cancel()) else { return };
         let eye = self.sight.map_or(world.viewpoint.eye.as_dvec3(), |sight| sight.camera.eye());
-        let source = self.inquiry.source.as_ref().map(|source| (source.point, source.patch));
+        let source = self.picks.source.as_ref().map(|source| (source.point, source.patch));
         let equation = light.equation(&Points { eye, point: place.point, source }, balance);
         self.snapshot.equation = Some(Arc::new(equation));
-        self.inquiry.is_outdated = false;
-        self.inquiry.rests_until = Some(Instant::now() + EQUATION_INTERVAL.max(REST * start.elapsed()));
+        self.picks.is_outdated = false;
+        self.picks.rests_until = Some(Instant::now() + EQUATION_INTERVAL.max(REST * start.elapsed()));
         self.publish();
     }
 
@@ -121,13 +121,13 @@ impl<W: Workshop> Solver<W> {
         self.snapshot.picked = None;
         self.snapshot.equation = None;
         if !is_same_world {
-            self.inquiry = Inquiry::default();
+            self.picks = Picks::default();
         }
     }
 
     /// Forgets what was picked in the light on surfaces.
     pub(super) fn forget_picked(&mut self) {
-        self.inquiry = Inquiry::default();
+        self.picks = Picks::default();
         self.snapshot.picked = None;
         self.snapshot.equation = None;
     }

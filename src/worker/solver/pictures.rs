@@ -27,7 +27,7 @@ impl<W: Workshop> Solver<W> {
             return;
         }
         self.easel.has_crashed = false;
-        self.inquiry.outdate();
+        self.picks.outdate();
         self.start_what_is_needed();
         if let Some(shot) = self.shot() {
             self.easel.look(&shot);

@@ -1,0 +1,72 @@
+//! Settings that suit a wish, or a study, looked for while the window goes on.
+
+use crate::accuracy::Cache;
+use crate::scene::Scene;
+use crate::study::{Answer, Choice, Inquiry, Question, State};
+use crate::worker::Snapshot;
+use std::sync::Arc;
+
+/// What is asked about the scene on show, if anything is.
+pub struct Asking {
+    cache: Option<Cache>,
+    inquiry: Option<Inquiry>,
+    /// What the inquiry is about.
+    scene: Option<Arc<Scene>>,
+    /// Whether its end has not been told yet.
+    is_awaited: bool,
+}
+
+/// What is told once of an inquiry.
+#[derive(Clone, Debug)]
+pub enum News {
+    /// It is over, and nothing is to be done about it.
+    Over,
+    /// These settings are to be used.
+    Found(Arc<Choice>),
+}
+
+impl Asking {
+    /// What is found out about scenes is kept in the cache, if there is one.
+    pub fn new(cache: Option<Cache>) -> Self {
+        Self { cache, inquiry: None, scene: None, is_awaited: false }
+    }
+
+    /// Begins to look for an answer about the scene on show, in place of any other; false without a scene.
+    pub fn ask(&mut self, question: Question, snapshot: &Snapshot, wake: impl Fn() + Send + 'static) -> bool {
+        let Some(world) = &snapshot.world else { return false };
+        self.scene = Some(world.scene.clone());
+        self.inquiry = Some(Inquiry::spawn(question, world.clone(), &snapshot.settings, self.cache.clone(), wake));
+        self.is_awaited = true;
+        true
+    }
+
+    /// Gives it up.
+    pub fn stop(&mut self) {
+        self.inquiry = None;
+    }
+
+    /// What is known of the answer.
+    pub fn latest(&self) -> Option<Arc<Answer>> {
+        self.inquiry.as_ref().map(Inquiry::latest)
+    }
+
+    /// What is new since the last call. An answer about another scene than the one on show is given up.
+    pub fn news(&mut self, snapshot: &Snapshot) -> Option<News> {
+        let is_about_this = match (&self.scene, &snapshot.world) {
+            (Some(scene), Some(world)) => Arc::ptr_eq(scene, &world.scene),
+            _ => false,
+        };
+        if !is_about_this {
+            self.stop();
+        }
+        let answer = self.latest().filter(|answer| !answer.is_awaited());
+        let is_over = answer.is_some() || self.inquiry.is_none();
+        if !is_over || !std::mem::take(&mut self.is_awaited) {
+            return None;
+        }
+        match answer.as_deref() {
+            Some(Answer { state: State::Found(choice), .. }) => Some(News::Found(choice.clone())),
+            _ => Some(News::Over),
+        }
+    }
+}
