@@ -2,7 +2,7 @@
 
 use super::action::{Action, CameraMove};
 use super::model::{Dialog, Look, LowerPanel, Model};
-use crate::solution::CameraView;
+use crate::solution::{CameraView, Judged};
 use crate::viewport::{PhotonLook, View};
 use crate::worker::Command;
 use egui::{Event, InputState, Key, KeyboardShortcut, Modifiers};
@@ -57,6 +57,7 @@ pub const OCCLUSION_VERTICES: KeyboardShortcut = KeyboardShortcut::new(Modifiers
 pub const AMBIENT_MINUS_INDIRECT: KeyboardShortcut = KeyboardShortcut::new(Modifiers::SHIFT, Key::Num9);
 pub const REFERENCE: KeyboardShortcut = KeyboardShortcut::new(Modifiers::SHIFT, Key::Num0);
 pub const RADIOSITY_DIRECT: KeyboardShortcut = key(Key::D);
+pub const ERROR: KeyboardShortcut = key(Key::X);
 pub const WIREFRAME: KeyboardShortcut = key(Key::W);
 pub const SHOOTER: KeyboardShortcut = key(Key::O);
 pub const TICKS: KeyboardShortcut = key(Key::T);
@@ -124,6 +125,9 @@ pub const BINDINGS: &[Binding] = &[
         view(model, View::Camera(CameraView::AmbientMinusIndirect))
     }),
     Binding::new(REFERENCE, "View: the unbiased reference", |model| view(model, View::Camera(CameraView::Reference))),
+    Binding::new(ERROR, "View: the error of what is shown, and back", |model| {
+        view(model, error_and_back(model.look.view))
+    }),
     Binding::new(WIREFRAME, "Show or hide the elements' edges", |model| {
         Some(Action::SetLook(Look { wireframe: !model.look.wireframe, ..model.look }))
     }),
@@ -179,6 +183,7 @@ pub fn of_view(view: View) -> KeyboardShortcut {
         View::Camera(CameraView::DiffuseAmbient) => DIFFUSE_AMBIENT,
         View::Camera(CameraView::AmbientMinusIndirect) => AMBIENT_MINUS_INDIRECT,
         View::Camera(CameraView::Reference) => REFERENCE,
+        View::Camera(CameraView::Error(_)) => ERROR,
     }
 }
 
@@ -195,6 +200,15 @@ pub fn of_lower_panel(panel: LowerPanel) -> KeyboardShortcut {
 /// What the transport's first button and its key ask for.
 pub fn run_or_pause(model: &Model) -> Action {
     Action::Send(if model.is_running() { Command::Pause } else { Command::Run })
+}
+
+/// The error of what a view shows; of an error, what it is of.
+pub fn error_and_back(view: View) -> View {
+    match view {
+        View::Camera(CameraView::Error(Judged::Patches)) => View::Patches,
+        View::Camera(CameraView::Error(judged)) => View::Camera(judged.view()),
+        view => View::Camera(CameraView::Error(view.judged())),
+    }
 }
 
 fn step(model: &Model, steps: u64) -> Option<Action> {

@@ -13,7 +13,7 @@ use crate::cli::picture::{self, Format};
 use crate::math::rgb::Rgb64;
 use crate::methods::{Settings, Solver};
 use crate::scene::{Finding, FindingKind};
-use crate::solution::{CameraImage, CameraView, Gathered, PhotonSolution, PhotonTrail, Solution, VertexShares};
+use crate::solution::{CameraImage, Gathered, PhotonSolution, PhotonTrail, Solution, VertexShares};
 use crate::study::Answer;
 use crate::viewport::{Exposure, Legend, PhotonLook, ToneCurve, View};
 use crate::worker::{CheckReport, Curve, LightKind, Phase, Snapshot, Subject, Track};
@@ -145,7 +145,7 @@ impl Model<'_> {
             None => true,
         };
         // A picture that is there and shows nothing will not show more.
-        let is_empty = self.look.view == View::Camera(CameraView::AmbientMinusIndirect) && self.image.is_some();
+        let is_empty = self.look.view.is_comparison() && self.image.is_some();
         self.subject() == Subject::Radiosity || is_empty || !(has_light || self.is_running())
     }
 

@@ -29,7 +29,7 @@ impl ViewGroup {
                 | CameraView::RadiosityDirect
                 | CameraView::FinalGather,
             ) => Self::Rays,
-            View::Camera(CameraView::Reference) => Self::Truth,
+            View::Camera(CameraView::Reference | CameraView::Error(_)) => Self::Truth,
             View::OcclusionVertices
             | View::Camera(
                 CameraView::AmbientOcclusion

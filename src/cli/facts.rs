@@ -159,7 +159,7 @@ impl Facts {
             };
             self.add("Method", method);
         }
-        if view == CameraView::FinalGather {
+        if view.gathers() {
             self.add("Gather rays", settings.image.gather_rays);
         }
         if view.samples_emitters() {
@@ -168,8 +168,8 @@ impl Facts {
         if view.is_occluded() {
             self.add_range(&settings.occlusion);
         }
-        if let Some(contrast) = light.image_of(view).and_then(|image| image.contrast) {
-            self.add("Range", contrast.range);
+        if let Some(comparison) = light.image_of(view).and_then(|image| image.comparison) {
+            self.add("Range", comparison.range());
         }
         if view.has_paths() && !settings.image.filter.passes_all() {
             self.add("Paths", settings.image.filter.as_str());

@@ -32,6 +32,7 @@ pub fn of_photons() -> Effects {
 pub fn asked_for_by(view: CameraView) -> Effects {
     match view {
         CameraView::DiffuseAmbient => Effects::of(&[Effect::AmbientLight]),
+        CameraView::Error(judged) => asked_for_by(judged.view()),
         _ => Effects::default(),
     }
 }
@@ -49,5 +50,8 @@ pub fn of_view(view: CameraView, form_factor: FormFactorMethod) -> Effects {
         CameraView::AmbientOcclusion => Effects::default(),
         CameraView::AmbientMinusIndirect => INDIRECT,
         CameraView::Reference => PHOTONS.and(BY_SHADOW_RAYS),
+        CameraView::Error(judged) => {
+            of_view(judged.view(), form_factor).and(of_view(CameraView::Reference, form_factor))
+        }
     }
 }

@@ -1,13 +1,8 @@
 //! How a guess at light differs from the truth over a picture, when both are made equally bright.
 
-use super::CameraImage;
+use super::comparison::range_of;
 use crate::math::rgb::Rgb;
 use crate::math::stats::Moments;
-
-/// So much of a picture has differences within its range; the rest is beyond its ends.
-const SHOWN: f64 = 0.95;
-/// Ranges that are chosen from: round numbers.
-const RANGES: [f64; 7] = [0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0];
 
 /// Ambient occlusion against indirect light in one picture of [`super::CameraView::AmbientMinusIndirect`]. Of each cell that
 /// shows a surface, the share of ambient light `a` and the indirect irradiance `E` are divided by their means, ā and Ē.
@@ -55,9 +50,7 @@ impl Contrast {
                 size
             })
             .collect();
-        let last = ((differences.len() - 1) as f64 * SHOWN) as usize;
-        let (_, largest, _) = differences.select_nth_unstable_by(last, f64::total_cmp);
-        let range = RANGES.into_iter().find(|range| *range >= *largest).unwrap_or(RANGES[RANGES.len() - 1]);
+        let range = range_of(&mut differences);
         Some(Self { range, mean_difference: sizes.mean(), correlation: spread.correlation(), ..means })
     }
 
@@ -66,14 +59,6 @@ impl Contrast {
     pub fn difference(&self, value: Rgb, coverage: f32) -> f64 {
         let [share, irradiance] = [value.x, value.y].map(|part| f64::from(part / coverage));
         share / self.mean_share - irradiance / self.mean_irradiance
-    }
-}
-
-impl CameraImage {
-    /// The difference that a cell shows; `None` where there is no surface, or nothing to compare.
-    pub fn difference(&self, cell: usize) -> Option<f64> {
-        let contrast = self.contrast.filter(|_| self.coverage[cell] > 0.0)?;
-        Some(contrast.difference(self.radiance[cell], self.coverage[cell]))
     }
 }
 
@@ -120,7 +105,7 @@ mod tests {
         let values: Vec<Rgb> = (1..=8).map(|i| Rgb::new(0.125 * i as f32, 3.0 * i as f32, 0.0)).collect();
         let contrast = Contrast::of(&values, &[1.0; 8]).expect("a contrast");
         assert!(contrast.mean_difference < 1e-12 && (contrast.correlation - 1.0).abs() < 1e-12, "{contrast:?}");
-        assert_eq!(contrast.range, RANGES[0]);
+        assert_eq!(contrast.range, 0.01);
         // One of them is the same everywhere.
         let values: Vec<Rgb> = (1..=8).map(|i| Rgb::new(0.125 * i as f32, 3.0, 0.0)).collect();
         assert_eq!(Contrast::of(&values, &[1.0; 8]).expect("a contrast").correlation, 0.0);

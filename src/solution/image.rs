@@ -1,6 +1,6 @@
 //! What the methods hand out that look from a camera: radiance, pixel by pixel.
 
-use super::Contrast;
+use super::{Comparison, Judged};
 use crate::camera::Camera;
 use crate::choice::Choice;
 use crate::effects::Bill;
@@ -36,22 +36,42 @@ pub enum CameraView {
     AmbientMinusIndirect,
     /// All light there is, by path tracing (Kajiya 1986): noisy, without a bias.
     Reference,
+    /// How far another view is off, against the reference.
+    Error(Judged),
 }
 
 impl CameraView {
+    /// The view whose light it is read off: of errors, the one that is judged.
+    fn source(self) -> Self {
+        match self {
+            Self::Error(judged) => judged.view(),
+            view => view,
+        }
+    }
+
+    /// Whether it compares two kinds of light.
+    pub fn is_comparison(self) -> bool {
+        matches!(self, Self::AmbientMinusIndirect | Self::Error(_))
+    }
+
+    /// Whether diffuse rays of each sample end in the photon map.
+    pub fn gathers(self) -> bool {
+        self.source() == Self::FinalGather
+    }
+
     /// Whether the picture is read off a map of photons.
     pub fn needs_photons(self) -> bool {
-        matches!(self, Self::PhotonIrradiance | Self::PhotonRadiance | Self::Caustics | Self::FinalGather)
+        matches!(self.source(), Self::PhotonIrradiance | Self::PhotonRadiance | Self::Caustics | Self::FinalGather)
     }
 
     /// Whether ambient occlusion is a part of it.
     pub fn is_occluded(self) -> bool {
-        matches!(self, Self::AmbientOcclusion | Self::DiffuseAmbient | Self::AmbientMinusIndirect)
+        matches!(self.source(), Self::AmbientOcclusion | Self::DiffuseAmbient | Self::AmbientMinusIndirect)
     }
 
     /// Whether its values are light; if not, shares in [0, 1], or what false colours stand for.
     pub fn is_light(self) -> bool {
-        !matches!(self, Self::AmbientOcclusion | Self::AmbientMinusIndirect)
+        self != Self::AmbientOcclusion && !self.is_comparison()
     }
 
     /// Whether the paths of its light can be told apart.
@@ -68,19 +88,20 @@ impl CameraView {
             | Self::AmbientOcclusion
             | Self::Diffuse
             | Self::DiffuseAmbient
-            | Self::AmbientMinusIndirect => false,
+            | Self::AmbientMinusIndirect
+            | Self::Error(_) => false,
         }
     }
 
     /// Whether the picture is read off a radiosity solution.
     pub fn needs_radiosity(self) -> bool {
-        matches!(self, Self::RadiositySpecular | Self::RadiosityDirect)
+        matches!(self.source(), Self::RadiositySpecular | Self::RadiosityDirect)
     }
 
     /// Whether shadow rays find the light of the emitters.
     pub fn samples_emitters(self) -> bool {
         matches!(
-            self,
+            self.source(),
             Self::RayTraced | Self::RadiosityDirect | Self::FinalGather | Self::Diffuse | Self::DiffuseAmbient
         )
     }
@@ -100,6 +121,13 @@ impl Choice for CameraView {
         Self::Diffuse,
         Self::DiffuseAmbient,
         Self::AmbientMinusIndirect,
+        Self::Error(Judged::Patches),
+        Self::Error(Judged::RadiositySpecular),
+        Self::Error(Judged::RadiosityDirect),
+        Self::Error(Judged::PhotonRadiance),
+        Self::Error(Judged::RayTraced),
+        Self::Error(Judged::FinalGather),
+        Self::Error(Judged::DiffuseAmbient),
     ];
     const KIND: &'static str = "view from a camera";
 
@@ -117,6 +145,7 @@ impl Choice for CameraView {
             Self::DiffuseAmbient => "diffuse-ao",
             Self::AmbientMinusIndirect => "ao-minus-indirect",
             Self::Reference => "reference",
+            Self::Error(judged) => judged.name(),
         }
     }
 
@@ -134,6 +163,7 @@ impl Choice for CameraView {
             Self::DiffuseAmbient => "Diffuse + AO",
             Self::AmbientMinusIndirect => "AO − indirect",
             Self::Reference => "Reference",
+            Self::Error(_) => "Error",
         }
     }
 
@@ -156,6 +186,10 @@ impl Choice for CameraView {
                  darker, as in a white corner, whose walls reflect light to each other; red where it is brighter"
             }
             Self::Reference => "The rendering equation by path tracing: all light, noisy at first, without a bias",
+            Self::Error(_) => {
+                "How far the light of a view is off, in shares of the mean light: blue where it is too dark, red where it is \
+                 too bright, speckled as long as the reference is noisy"
+            }
         }
     }
 }
@@ -173,13 +207,12 @@ pub struct CameraImage {
     /// L, W/(m²·sr), row by row from the top left, premultiplied with `coverage`: background counts as 0. For
     /// [`CameraView::PhotonIrradiance`] E/π; for [`CameraView::AmbientOcclusion`] the share of light that arrives; for
     /// [`CameraView::AmbientMinusIndirect`] this share and, as the second number, the indirect irradiance, W/m², weighed by
-    /// how bright its colours are.
+    /// how bright its colours are; for [`CameraView::Error`] see [`super::PictureError::of`].
     pub radiance: Vec<Rgb>,
     /// Share of each cell that shows a surface, in [0, 1]; the rest is background.
     pub coverage: Vec<f32>,
-    /// How the two numbers of [`CameraView::AmbientMinusIndirect`] compare; `None` for other views, and where one of them
-    /// is nothing.
-    pub contrast: Option<Contrast>,
+    /// How two kinds of light compare; `None` for views that compare nothing, and where one of them is nothing.
+    pub comparison: Option<Comparison>,
     /// Samples a pixel so far; 0 while it is coarse.
     pub samples: u32,
     pub rays: u64,

@@ -1,21 +1,27 @@
 //! What a method hands out: light per element, its ledger of energy, and what it cost.
 
+mod comparison;
 mod contrast;
 mod equation;
 mod exchange;
 mod image;
+mod judged;
 mod occlusion;
 mod path;
 mod photons;
+mod picture_error;
 mod probe;
 
+pub use comparison::Comparison;
 pub use contrast::Contrast;
 pub use equation::{Balance, Contribution, Equation, LightSource, Visibility};
 pub use exchange::{FormFactorMatrix, ItemBuffer, Picked, Zero};
 pub use image::{CameraImage, CameraView};
+pub use judged::Judged;
 pub use occlusion::VertexShares;
 pub use path::{Path, PathFilter, PathMatcher, Scattering};
 pub use photons::{Gathered, Photon, PhotonCounters, PhotonEnergy, PhotonSolution, PhotonTrail, Split, TrailPlace};
+pub use picture_error::PictureError;
 pub use probe::SurfaceProbe;
 
 use crate::effects::Bill;

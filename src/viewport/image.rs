@@ -6,7 +6,7 @@ use super::pipelines::{Pipelines, bind};
 use super::shading::Quantity;
 use super::{Legend, targets};
 use crate::math::rgb::Rgb;
-use crate::solution::{CameraImage, CameraView};
+use crate::solution::CameraImage;
 use bytemuck::cast_slice;
 use std::sync::Arc;
 use wgpu::TextureUsages;
@@ -67,7 +67,7 @@ impl ImageTexture {
 /// top left.
 pub fn texels(image: &CameraImage) -> Vec<[f32; 4]> {
     let texel = |(colour, &coverage): (Rgb, &f32)| [colour.x, colour.y, colour.z, coverage];
-    if image.view == CameraView::AmbientMinusIndirect {
+    if image.view.is_comparison() {
         return differences(image).zip(&image.coverage).map(texel).collect();
     }
     image.radiance.iter().copied().zip(&image.coverage).map(texel).collect()

@@ -3,7 +3,7 @@
 use super::colour_map::{ColourMap, colour, diverging};
 use super::{Light, View};
 use crate::math::rgb::Rgb;
-use crate::solution::CameraImage;
+use crate::solution::{CameraImage, Comparison};
 
 /// A scale of false colours. With it a window draws a key beside a picture.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,9 +36,14 @@ impl Legend {
 
     /// A scale of the differences that a picture shows, as far below 0 as above.
     pub(super) fn of_image(image: &CameraImage) -> Option<Self> {
-        let high = image.contrast?.range;
+        let comparison = image.comparison?;
+        let high = comparison.range();
+        let title = match comparison {
+            Comparison::Ambient(_) => "Ambient occlusion less indirect light, in shares of their mean",
+            Comparison::Error(_) => "Light less its reference, in shares of the mean light that is seen",
+        };
         Some(Self {
-            title: "Ambient occlusion less indirect light, in shares of their mean",
+            title,
             unit: "",
             low: -high,
             high,

@@ -4,7 +4,7 @@ use super::{PhotonLook, ToneCurve};
 use crate::camera::Camera;
 use crate::choice::Choice;
 use crate::solution::{
-    CameraImage, CameraView, Gathered, PathFilter, PhotonSolution, PhotonTrail, Picked, Solution, VertexShares,
+    CameraImage, CameraView, Gathered, Judged, PathFilter, PhotonSolution, PhotonTrail, Picked, Solution, VertexShares,
 };
 use std::sync::Arc;
 
@@ -78,6 +78,37 @@ impl View {
         }
     }
 
+    /// Whether it shows how two kinds of light compare.
+    pub fn is_comparison(self) -> bool {
+        matches!(self, Self::Camera(view) if view.is_comparison())
+    }
+
+    /// What the view shows of which an error is asked: itself where it is one, else the light that it shows or is closest to.
+    pub fn judged(self) -> Judged {
+        match self {
+            Self::Patches => Judged::Patches,
+            Self::Smooth | Self::Unshot | Self::Absorbed | Self::Bounces | Self::FormFactors => {
+                Judged::RadiositySpecular
+            }
+            Self::Photons | Self::KdTree => Judged::PhotonRadiance,
+            Self::OcclusionVertices => Judged::DiffuseAmbient,
+            Self::Camera(view) => match view {
+                CameraView::Error(judged) => judged,
+                CameraView::PhotonIrradiance | CameraView::PhotonRadiance | CameraView::Caustics => {
+                    Judged::PhotonRadiance
+                }
+                CameraView::RayTraced => Judged::RayTraced,
+                CameraView::RadiositySpecular => Judged::RadiositySpecular,
+                CameraView::RadiosityDirect | CameraView::Reference => Judged::RadiosityDirect,
+                CameraView::FinalGather => Judged::FinalGather,
+                CameraView::AmbientOcclusion
+                | CameraView::Diffuse
+                | CameraView::DiffuseAmbient
+                | CameraView::AmbientMinusIndirect => Judged::DiffuseAmbient,
+            },
+        }
+    }
+
     /// Whether ambient occlusion is a part of it.
     pub fn is_occluded(self) -> bool {
         match self {
@@ -95,10 +126,13 @@ impl View {
 
 /// Why a picture that compares two kinds of light shows none.
 fn nothing_to_compare(image: &Arc<CameraImage>) -> Option<&'static str> {
-    let is_comparison = image.view == CameraView::AmbientMinusIndirect;
-    (is_comparison && image.contrast.is_none()).then_some(
-        "No light comes here from one surface to another, or no ambient light arrives: there is nothing to compare",
-    )
+    let reason = match image.view {
+        CameraView::AmbientMinusIndirect => {
+            "No light comes here from one surface to another, or no ambient light arrives: there is nothing to compare"
+        }
+        _ => "No light arrives at what is seen here: there is nothing to compare",
+    };
+    (image.view.is_comparison() && image.comparison.is_none()).then_some(reason)
 }
 
 impl Choice for View {
@@ -124,6 +158,13 @@ impl Choice for View {
         Self::Camera(CameraView::DiffuseAmbient),
         Self::Camera(CameraView::AmbientMinusIndirect),
         Self::OcclusionVertices,
+        Self::Camera(CameraView::Error(Judged::Patches)),
+        Self::Camera(CameraView::Error(Judged::RadiositySpecular)),
+        Self::Camera(CameraView::Error(Judged::RadiosityDirect)),
+        Self::Camera(CameraView::Error(Judged::PhotonRadiance)),
+        Self::Camera(CameraView::Error(Judged::RayTraced)),
+        Self::Camera(CameraView::Error(Judged::FinalGather)),
+        Self::Camera(CameraView::Error(Judged::DiffuseAmbient)),
     ];
     const KIND: &'static str = "view";
 

@@ -1,6 +1,6 @@
 //! `lightwell probe`.
 
-use crate::{assert_contains, folder, json, keys, printed, program, refusal, stdout, write_dark_scene};
+use crate::{assert_contains, folder, json, keys, number, printed, program, refusal, stdout, write_dark_scene};
 use std::io::Write;
 use std::process::Stdio;
 

@@ -4,6 +4,7 @@ use super::truth::{Region, region};
 use super::{builtin, finished, home, mean, sources, with_photons};
 use lightwell::camera::Camera;
 use lightwell::cancel::Cancel;
+use lightwell::choice::Choice;
 use lightwell::math::rgb::Rgb;
 use lightwell::methods::image::Sources;
 use lightwell::methods::radiosity;
@@ -49,7 +50,7 @@ pub fn check(sources: &Sources, camera: &Camera, image: &CameraImage, parts: &[P
         let truth = truth_of(sources, camera, part).total;
         let got = f64::from(mean_of(image, part).element_sum());
         let (error, noise) = (got / truth.mean() - 1.0, truth.standard_error() / truth.mean());
-        println!("{}, {}: {got:.4}, off by {error:+.4}; noise of the truth {noise:.4}", image.view as u8, part.0);
+        println!("{}, {}: {got:.4}, off by {error:+.4}; noise of the truth {noise:.4}", image.view.name(), part.0);
         assert!(error.abs() < tolerance + 3.0 * noise, "{}: off by {error:+.4}", part.0);
     }
 }

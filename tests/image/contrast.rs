@@ -6,7 +6,7 @@ use glam::Vec3;
 use lightwell::math::rgb::luminance;
 use lightwell::math::stats::Moments;
 use lightwell::methods::{Falloff, ImageSettings, OcclusionSettings, Range, Settings};
-use lightwell::solution::{CameraImage, CameraView};
+use lightwell::solution::{CameraImage, CameraView, Comparison};
 use std::f32::consts::PI;
 
 const VIEW: CameraView = CameraView::AmbientMinusIndirect;
@@ -38,10 +38,10 @@ fn in_a_furnace_indirect_light_is_what_it_must_be_and_an_unlimited_distance_leav
     let error = found.standard_error();
     assert!(found.count() > 700 && error < 0.01 * expected, "{found:?}");
     assert!((found.mean() - expected).abs() < 4.0 * error, "{found:?}, not {expected}");
-    assert!(image.contrast.is_some());
+    assert!(image.comparison.is_some());
     // Everything hides everything.
     let dark = finished(&sources(&world), VIEW, home(&world), [32, 24], &with_range(Range::Unlimited, 4));
-    assert!(dark.radiance.iter().all(|value| value.x == 0.0) && dark.contrast.is_none());
+    assert!(dark.radiance.iter().all(|value| value.x == 0.0) && dark.comparison.is_none());
 }
 
 #[test]
@@ -56,7 +56,7 @@ fn without_light_between_surfaces_there_is_nothing_to_compare() {
         let image = finished(&sources(&world), VIEW, camera, [32, 24], &with_range(Range::Automatic, 2));
         let is_white = |(value, coverage): (&Vec3, &f32)| value.y == 0.0 && (value.x > 0.0 || *coverage == 0.0);
         assert!(image.radiance.iter().zip(&image.coverage).all(is_white));
-        assert!(image.coverage.contains(&1.0) && image.contrast.is_none());
+        assert!(image.coverage.contains(&1.0) && image.comparison.is_none());
     }
 }
 
@@ -110,7 +110,7 @@ fn a_white_corner_is_darker_under_ambient_occlusion_than_in_truth() {
     let corner = Vec3::new(-1.0, -1.0, -1.0);
     let camera = camera(&world, Vec3::new(0.0, -0.1, 0.0), corner, Vec3::Y, 100.0);
     let image = finished(&sources(&world), VIEW, camera, [64, 64], &with_range(Range::Metres(1.0), 64));
-    let contrast = image.contrast.expect("a contrast");
+    let Some(Comparison::Ambient(contrast)) = image.comparison else { panic!("no contrast") };
     let mean_over = |is_in: &dyn Fn(f32) -> bool| {
         let mut differences = Moments::default();
         for (cell, _) in image.radiance.iter().enumerate() {

@@ -2,6 +2,7 @@
 
 mod agreement;
 mod contrast;
+mod errors;
 mod film;
 mod rays;
 mod spheres;

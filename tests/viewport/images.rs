@@ -4,7 +4,7 @@ use crate::{SIZE, frame, gpu, light, motley, pixel, solution, square};
 use lightwell::camera::Camera;
 use lightwell::effects::Bill;
 use lightwell::math::rgb::Rgb;
-use lightwell::solution::{CameraImage, CameraView, Contrast};
+use lightwell::solution::{CameraImage, CameraView, Comparison};
 use lightwell::viewport::{Frame, Legend, Light, ToneCurve, View, Viewport, render_picture};
 use lightwell::world::World;
 use std::sync::Arc;
@@ -21,7 +21,7 @@ fn image(world: &World, resolution: [u32; 2], value: impl Fn(usize) -> (Rgb, f32
         resolution,
         radiance,
         coverage,
-        contrast: None,
+        comparison: None,
         samples: 1,
         rays: 0,
         bill: Bill::default(),
@@ -109,14 +109,14 @@ fn differences_have_the_colours_of_their_legend_and_are_missed_where_there_are_n
         (coverage * Rgb::new((cell % 100) as f32 / 99.0, 3.0, 0.0), coverage)
     };
     let image = image(&world, SIZE, value);
-    let contrast = Contrast::of(&image.radiance, &image.coverage);
-    let picture_of = |contrast| {
-        let image = Arc::new(CameraImage { view, contrast, ..image.clone() });
+    let comparison = Comparison::of(view, &image.radiance, &image.coverage);
+    let picture_of = |comparison| {
+        let image = Arc::new(CameraImage { view, comparison, ..image.clone() });
         let light = Light { image: Some(image.clone()), ..Light::default() };
         let frame = Frame { exposure_ev: -3.0, tone: ToneCurve::Filmic, ..frame(&world, View::Camera(view)) };
         (render_picture(&gpu, &world, &light, &frame, 4).expect("a picture"), light, image)
     };
-    let (picture, light, image) = picture_of(contrast);
+    let (picture, light, image) = picture_of(comparison);
     assert_eq!(View::Camera(view).missing(&light), None);
     let legend = Legend::of(View::Camera(view), &light).expect("a legend");
     // a/ā − 1 is between −1 and 1.

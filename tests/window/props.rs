@@ -179,7 +179,7 @@ pub fn image(view: CameraView) -> CameraImage {
         resolution: [1; 2],
         radiance: vec![Rgb::ONE],
         coverage: vec![1.0],
-        contrast: None,
+        comparison: None,
         samples: 4,
         rays: 3_000_000,
         bill: Bill::default(),

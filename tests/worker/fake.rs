@@ -340,7 +340,7 @@ impl ImageMethod for FakeImage {
             resolution: if self.steps > 1 { size } else { [1, 1] },
             radiance: vec![Rgb::ZERO],
             coverage: vec![self.passes as f32],
-            contrast: None,
+            comparison: None,
             samples: self.samples(),
             rays: self.light,
             bill: Bill::default(),

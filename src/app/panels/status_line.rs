@@ -3,7 +3,7 @@
 use crate::app::format;
 use crate::app::model::{Model, SceneFacts};
 use crate::app::theme::UNIT;
-use crate::solution::{CameraImage, PhotonSolution, Solution, VertexShares};
+use crate::solution::{CameraImage, Comparison, PhotonSolution, Solution, VertexShares};
 use crate::worker::{LightKind, Phase, TrackPoint};
 use egui::{Align, Layout, RichText, Ui};
 use std::time::Duration;
@@ -67,6 +67,11 @@ fn image(ui: &mut Ui, image: &CameraImage) {
         samples => format!("{} a pixel", format::counted(samples.into(), "sample")),
     };
     item(ui, samples, "Samples of this picture so far. Four times as many halve the noise.");
+    if let Some(Comparison::Error(error)) = image.comparison {
+        let hover =
+            "Root mean square difference from the reference over all that is seen, as a share of the mean light";
+        item(ui, format!("error {}", format::percent(error.rms)), hover);
+    }
     item(ui, format::duration(image.elapsed), "Time spent on this picture; drawing and waiting do not count");
     rays(ui, image.rays, image.elapsed);
 }

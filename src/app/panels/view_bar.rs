@@ -1,6 +1,6 @@
 //! How the light is drawn: the view, what is drawn over it, and where the camera goes.
 
-use super::widgets::{Segment, segmented, slider, toggle, with_key};
+use super::widgets::{Segment, combo, segmented, slider, toggle, with_key};
 use crate::app::action::{Action, CameraMove};
 use crate::app::format;
 use crate::app::keys;
@@ -8,6 +8,7 @@ use crate::app::model::{Look, Model};
 use crate::app::theme::UNIT;
 use crate::app::views::ViewGroup;
 use crate::choice::Choice;
+use crate::solution::CameraView;
 use crate::viewport::View;
 use egui::{Align, Button, Layout, Ui, vec2};
 
@@ -67,7 +68,10 @@ fn fold(ui: &mut Ui, name: &str, is_folded: bool, contents: impl FnOnce(&mut Ui)
 }
 
 fn views(ui: &mut Ui, look: Look, group: ViewGroup, actions: &mut Vec<Action>) {
-    let views: Vec<View> = group.views().collect();
+    // One button for all errors: what they are of is chosen beside it.
+    let error = View::Camera(CameraView::Error(look.view.judged()));
+    let is_shown = |view: &View| !matches!(view, View::Camera(CameraView::Error(_))) || *view == error;
+    let views: Vec<View> = group.views().filter(is_shown).collect();
     let segment = |&view: &View| Segment {
         name: view.label(),
         hover: view.meaning(),
@@ -82,6 +86,19 @@ fn views(ui: &mut Ui, look: Look, group: ViewGroup, actions: &mut Vec<Action>) {
     });
     if let Some(chosen) = chosen.inner {
         actions.push(Action::SetLook(Look { view: views[chosen], ..look }));
+    }
+    if look.view == error {
+        judged(ui, look, actions);
+    }
+}
+
+/// What the error on show is of.
+fn judged(ui: &mut Ui, look: Look, actions: &mut Vec<Action>) {
+    let label = ui.label("of");
+    let (chosen, response) = combo(ui, 36.0 * UNIT, look.view.judged());
+    response.labelled_by(label.id);
+    if let Some(judged) = chosen {
+        actions.push(Action::SetLook(Look { view: View::Camera(CameraView::Error(judged)), ..look }));
     }
 }
 

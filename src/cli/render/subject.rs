@@ -128,7 +128,7 @@ impl Options {
         if let Some(option) = self.photons.given().filter(|_| !view.is_of_photons()) {
             return unused(option);
         }
-        if self.image.gather_rays.is_some() && view.camera_view() != Some(CameraView::FinalGather) {
+        if self.image.gather_rays.is_some() && !view.camera_view().is_some_and(CameraView::gathers) {
             return unused("--gather-rays");
         }
         if let Some(option) = self.occlusion.given().filter(|_| !view.is_occluded()) {

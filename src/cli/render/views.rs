@@ -8,7 +8,7 @@ use crate::cli::tracing::{Tracing, photon_report};
 use crate::cli::{CliError, effect_options, picture};
 use crate::effects::Bill;
 use crate::methods::{ImageSettings, Settings};
-use crate::solution::{CameraImage, CameraView, Solution};
+use crate::solution::{CameraImage, CameraView, Comparison, Solution};
 use crate::viewport::{Frame, Gpu, Legend, Light, PhotonLook, View, render_picture};
 use crate::worker::{CameraShot, Subject};
 use crate::world::World;
@@ -122,7 +122,7 @@ impl Options {
         report["picture"] = image_report(&image, view.is_light().then_some(frame.exposure_ev));
         let light =
             Light { solution, photons: photons.map(Arc::new), image: Some(Arc::new(image)), ..Light::default() };
-        if view == CameraView::AmbientMinusIndirect
+        if view.is_comparison()
             && let Some(reason) = frame.view.missing(&light)
         {
             return Err(CliError::Missing(reason));
@@ -175,12 +175,25 @@ pub fn image_report(image: &CameraImage, exposure_ev: Option<f32>) -> Value {
         "rays": image.rays,
         "seconds": image.elapsed.as_secs_f64(),
     });
-    if let Some(contrast) = image.contrast {
-        report["legend"] = json!({ "low": -contrast.range, "high": contrast.range });
-        report["mean_share"] = json!(contrast.mean_share);
-        report["mean_indirect_irradiance"] = json!(contrast.mean_irradiance);
-        report["mean_absolute_difference"] = json!(contrast.mean_difference);
-        report["correlation"] = json!(contrast.correlation);
+    if let Some(comparison) = image.comparison {
+        report["legend"] = json!({ "low": -comparison.range(), "high": comparison.range() });
+    }
+    match image.comparison {
+        Some(Comparison::Ambient(contrast)) => {
+            report["mean_share"] = json!(contrast.mean_share);
+            report["mean_indirect_irradiance"] = json!(contrast.mean_irradiance);
+            report["mean_absolute_difference"] = json!(contrast.mean_difference);
+            report["correlation"] = json!(contrast.correlation);
+        }
+        Some(Comparison::Error(error)) => {
+            report["error"] = json!({
+                "rms": error.rms,
+                "floor": error.floor,
+                "offset": error.offset,
+                "mean_radiance": error.mean,
+            });
+        }
+        None => {}
     }
     report
 }

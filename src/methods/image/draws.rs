@@ -59,7 +59,15 @@ impl Draws {
         let seed = hash(self.pixel, what as u64, index / SEQUENCE) as u32;
         sobol2((index % SEQUENCE) as u32, 1, seed).x
     }
+
+    /// The path that each sample takes of set `set`: sets have nothing to do with each other, so that their difference tells
+    /// the noise of their mean.
+    pub fn path_of_set(&self, set: u64) -> PaddedPoint {
+        PaddedPoint::new(hash(self.pixel, SETS, set), self.sample)
+    }
 }
 
 /// Marks this use of (seed, index) among the others.
 const PASS: u64 = 0x0069_6d61_6765;
+/// Marks paths in sets.
+const SETS: u64 = 0x7365_7473;

@@ -38,6 +38,21 @@ pub fn direct_light(transport: &Transport, seen: &Seen<'_>, rays: u32, tools: &m
     }
 }
 
+/// Read off a radiosity solution as it was computed: one value an element.
+pub struct PatchLight {
+    pub transport: Arc<Transport>,
+    pub solution: Arc<Solution>,
+}
+
+impl DiffuseLight for PatchLight {
+    fn leaving(&self, seen: &Seen<'_>, _tools: &mut Tools<'_>) -> Rgb {
+        let element =
+            self.transport.world.mesh.element_at(seen.surface.polygon, seen.surface.is_front, seen.surface.point);
+        let irradiance = element.map_or(Rgb::ZERO, |element| self.solution.light.irradiance[element as usize]);
+        seen.bsdf.diffuse() * irradiance / PI
+    }
+}
+
 /// Read off a radiosity solution, smooth between the vertices of its mesh.
 pub struct RadiosityLight {
     transport: Arc<Transport>,

@@ -6,6 +6,7 @@ mod arrivals;
 mod contrast;
 mod direct;
 mod draws;
+mod error;
 mod eye_path;
 mod film;
 mod gather;
@@ -20,14 +21,15 @@ use crate::methods::path_trace::PathTracer;
 use crate::methods::photon_map::PhotonMaps;
 use crate::methods::transport::{Media, Transport};
 use crate::methods::{ImageSettings, Settings, Step};
-use crate::solution::{CameraImage, CameraView, Contrast, PathFilter, Solution};
+use crate::solution::{CameraImage, CameraView, Comparison, Judged, PathFilter, Solution};
 use ambient::{AmbientLook, Parts};
 use arrivals::ArrivalMaps;
 use contrast::ContrastLook;
+use error::ErrorLook;
 use eye_path::{DiffuseLight, EyePath, Look};
 use film::Film;
 use gather::GatherLight;
-use lights::{DirectLight, RadiosityLight};
+use lights::{DirectLight, PatchLight, RadiosityLight};
 pub use meters::Meters;
 use photon_light::{PhotonLight, Shown};
 use std::sync::Arc;
@@ -68,7 +70,8 @@ impl Sources {
             CameraView::AmbientOcclusion
             | CameraView::Diffuse
             | CameraView::AmbientMinusIndirect
-            | CameraView::Reference => return None,
+            | CameraView::Reference
+            | CameraView::Error(_) => return None,
         })
     }
 
@@ -89,9 +92,30 @@ impl Sources {
                 let matcher = settings.image.filter.matcher();
                 return Some(Arc::new(PathTracer::new(self.transport.clone(), matcher)));
             }
+            CameraView::Error(judged) => return self.error(judged, settings),
             _ => return Some(Arc::new(self.eye_path(view, settings)?)),
         };
         Some(Arc::new(AmbientLook::new(self.transport.clone(), parts, settings)))
+    }
+
+    /// Of all paths, whichever the view itself is asked for.
+    fn error(&self, judged: Judged, settings: &Settings) -> Option<Arc<dyn Look>> {
+        let settings =
+            Settings { image: ImageSettings { filter: PathFilter::default(), ..settings.image }, ..*settings };
+        let transport = self.transport.clone();
+        Some(match judged {
+            Judged::DiffuseAmbient => {
+                let look = AmbientLook::new(transport.clone(), Parts::DiffuseAmbient, &settings);
+                Arc::new(ErrorLook::new(transport, look))
+            }
+            Judged::Patches => {
+                let light = PatchLight { transport: transport.clone(), solution: self.radiosity.clone()? };
+                let matcher = PathFilter::default().matcher();
+                let look = EyePath { transport: transport.clone(), light: Box::new(light), matcher };
+                Arc::new(ErrorLook::new(transport, look))
+            }
+            _ => Arc::new(ErrorLook::new(transport, self.eye_path(judged.view(), &settings)?)),
+        })
     }
 
     fn eye_path(&self, view: CameraView, settings: &Settings) -> Option<EyePath> {
@@ -174,14 +198,13 @@ impl ImageRun {
     /// clock.
     pub fn image(&self) -> Option<CameraImage> {
         let developed = self.film.develop()?;
-        let is_compared = self.view == CameraView::AmbientMinusIndirect;
-        let contrast = || Contrast::of(&developed.radiance, &developed.coverage);
+        let comparison = Comparison::of(self.view, &developed.radiance, &developed.coverage);
         Some(CameraImage {
             view: self.view,
             camera: self.camera,
             size: self.size,
             resolution: developed.resolution,
-            contrast: is_compared.then(contrast).flatten(),
+            comparison,
             radiance: developed.radiance,
             coverage: developed.coverage,
             samples: self.film.samples(),

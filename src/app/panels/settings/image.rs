@@ -8,7 +8,7 @@ use egui::Ui;
 
 pub fn show(ui: &mut Ui, view: CameraView, settings: Settings, actions: &mut Vec<Action>) {
     samples(ui, settings, actions);
-    if view == CameraView::FinalGather {
+    if view.gathers() {
         gather_rays(ui, settings, actions);
     }
     if view.samples_emitters() {
