@@ -3,7 +3,7 @@
 use crate::math::rgb::Rgb;
 use crate::math::stats::Moments;
 
-/// How far irradiance is from the truth, as a share of the mean of the truth.
+/// How far irradiance, or the radiance of pixels, is from the truth, as a share of the mean of the truth.
 ///
 /// The error is the root of the mean of (E − E_ref)² over points that are spread by area and over channels. The reference's own
 /// noise, which is part of what is seen, is taken out of it; `floor` says how much that was, and below it little can be told.
@@ -19,7 +19,7 @@ pub struct Error {
 }
 
 impl Error {
-    /// Of the irradiance `found`, W/m², at points where independent estimates of the truth are known; `None` where there are
+    /// Of what was `found` at points, or in pixels, where independent estimates of the truth are known; `None` where there are
     /// no points, or no light.
     pub fn of(found: &[Rgb], truth: &[[Moments; 3]]) -> Option<Self> {
         let (mut squares, mut noise, mut variance, mut sum) = (0.0, 0.0, 0.0, 0.0);

@@ -4,6 +4,7 @@ mod cache;
 mod error;
 mod found;
 mod front;
+mod pixel_truth;
 mod points;
 mod reference;
 
@@ -11,5 +12,6 @@ pub use cache::{Cache, CacheError, Key};
 pub use error::Error;
 pub use found::{Found, by_photons, by_radiosity, surfaces};
 pub use front::{Offer, front, slope_at_end};
+pub use pixel_truth::PixelTruth;
 pub use points::{ProbePoint, spread};
 pub use reference::{Reference, Truth};

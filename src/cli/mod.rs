@@ -17,6 +17,7 @@ mod probe;
 mod render;
 mod run_options;
 mod scenes;
+mod seeking;
 mod series;
 mod solve;
 mod study;

@@ -4,6 +4,7 @@ use super::budget::Budget;
 use super::judge::Judge;
 use super::photon_options::{LightMethod, PhotonOptions};
 use super::run_options::{RunOptions, Solved};
+use super::seeking::light_for;
 use super::tracing::{Tracing, photon_report};
 use super::{CliError, effect_options, refuse, values};
 use crate::choice::{Choice, parse};
@@ -39,11 +40,8 @@ pub struct Options {
 }
 
 pub fn run(options: &Options) -> Result<(), CliError> {
-    let (report, text) = match Budget::of(
-        &options.run,
-        options.error.map(|percent| percent / 100.0),
-        options.method.map(LightMethod::name),
-    ) {
+    let way = options.method.map(|method| format!("--method {}", method.name()));
+    let (report, text) = match Budget::of(&options.run, options.error, way.as_deref()) {
         Some(budget) => {
             if let Some(option) = options.photons.given() {
                 refuse(&format!("{option} says how light is computed: --method photon-map goes with it"));
@@ -63,7 +61,7 @@ pub fn run(options: &Options) -> Result<(), CliError> {
 
 /// By the method and the settings that a budget leads to.
 fn solve_within(budget: &Budget, run: &RunOptions) -> Result<(Value, String), CliError> {
-    let found = budget.seek(run)?;
+    let found = light_for(budget, run)?;
     let (mut told, mut words) = match &found.light {
         Light::Radiosity(world, solution) => {
             let solved = Solved { world: world.clone(), settings: found.settings, solution: Solution::clone(solution) };
@@ -71,8 +69,8 @@ fn solve_within(budget: &Budget, run: &RunOptions) -> Result<(Value, String), Cl
         }
         Light::Photons(world, photons) => (photon_report(world, &found.settings, photons), photon_text(world, photons)),
     };
-    found.add_to(&mut told);
-    words += &found.text();
+    found.account.add_to(&mut told);
+    words += &found.account.text();
     Ok((told, words))
 }
 

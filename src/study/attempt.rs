@@ -1,18 +1,17 @@
 //! One recipe followed to its end, or until time is up, and measured on its way.
 
 use super::bench::Bench;
+use super::lit::{Light, bytes_of_photons, bytes_of_radiosity, light_of, trace_pass};
 use super::recipe::{Recipe, Way};
 use crate::accuracy::{Found, ProbePoint, by_photons, by_radiosity, surfaces};
 use crate::cancel::Cancel;
-use crate::math::rgb::Rgb;
-use crate::methods::image::{Meters, Sources};
+use crate::methods::image::Meters;
 use crate::methods::path_trace::{Sensor, Sensors};
-use crate::methods::photon_map::{PhotonMaps, ProgressivePoints, Which};
-use crate::methods::radiosity::FullMatrix;
+use crate::methods::photon_map::{ProgressivePoints, Which};
 use crate::methods::transport::Transport;
 use crate::methods::{ImageSettings, PhotonSettings, Settings, Step};
-use crate::solution::{Photon, PhotonSolution, Solution};
-use crate::worker::{Methods, PhotonRun, Refused, Run, TracedPhotons, Workshop};
+use crate::solution::Solution;
+use crate::worker::{Methods, PhotonRun, Refused, Run, Workshop};
 use crate::world::{World, WorldError};
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -44,13 +43,6 @@ pub struct Price {
     pub rays: u64,
     /// Memory that it held besides the scene.
     pub bytes: u64,
-}
-
-/// Light that a recipe has computed, in the world that it was computed in.
-#[derive(Clone)]
-pub enum Light {
-    Radiosity(Arc<World>, Arc<Solution>),
-    Photons(Arc<World>, Arc<PhotonSolution>),
 }
 
 /// Whether a recipe is followed any further.
@@ -124,12 +116,8 @@ impl Trial<'_> {
         (self.note)(Outcome { recipe, is_finished: true, price, found, light: None })
     }
 
+    /// Runs radiosity and hands out its states.
     fn radiosity(&mut self, world: &Arc<World>) -> Result<(), Refused> {
-        self.solve(world, true).map(|_| ())
-    }
-
-    /// Runs radiosity; with `tells`, hands out its states. Whether it came to its end is in the second part.
-    fn solve(&mut self, world: &Arc<World>, tells: bool) -> Result<(Arc<Solution>, bool), Refused> {
         let settings = self.recipe.settings;
         let mut run = Run::start(world.clone(), &settings)?;
         let mut next = Duration::ZERO;
@@ -137,19 +125,15 @@ impl Trial<'_> {
             let step = run.step(self.cancel);
             let is_finished = step == Step::Converged;
             let is_over = is_finished || step == Step::Cancelled || !self.has_time();
-            let is_told = tells && (is_over || step == Step::Advanced && run.elapsed() >= next);
-            if !is_told && !is_over {
+            let is_due = step == Step::Advanced && run.elapsed() >= next;
+            if !(is_over || is_due) {
                 continue;
             }
+            next = run.elapsed().mul_f64(PACE);
             let solution = Arc::new(run.solution());
-            let verdict = if is_told && solution.steps > 0 {
-                next = run.elapsed().mul_f64(PACE);
-                self.tell_radiosity(world, &solution, is_finished)
-            } else {
-                Verdict::Continue(())
-            };
-            if is_over || verdict.is_break() {
-                return Ok((solution, is_finished));
+            let is_told_enough = solution.steps > 0 && self.tell_radiosity(world, &solution, is_finished).is_break();
+            if is_over || is_told_enough {
+                return Ok(());
             }
         }
     }
@@ -177,7 +161,7 @@ impl Trial<'_> {
         let mut rays = 0;
         let passes = if settings.photons.is_progressive { settings.photons.passes } else { 1 };
         for pass in 1..=passes {
-            if !self.trace_pass(&mut run) {
+            if !trace_pass(&mut run, self.end, self.cancel) {
                 return Ok(());
             }
             let start = Instant::now();
@@ -212,52 +196,18 @@ impl Trial<'_> {
         Ok(())
     }
 
-    /// All photons of one pass; false if there was no time for them.
-    fn trace_pass(&self, run: &mut PhotonRun<TracedPhotons>) -> bool {
-        loop {
-            if !self.has_time() || run.step(self.cancel) != Step::Advanced {
-                return false;
-            }
-            if run.progress().is_complete {
-                return true;
-            }
-        }
-    }
-
     /// As a view shows light, whose own light is found first.
     fn view(&mut self, world: &Arc<World>) -> Result<(), Refused> {
         let Some(view) = self.recipe.way.view() else { return Ok(()) };
-        let settings = self.recipe.settings;
         let start = Instant::now();
-        let (mut rays, mut bytes) = (0, 0);
-        let mut sources = Sources {
-            transport: Arc::new(Transport::new(world.clone(), settings.effects)),
-            radiosity: None,
-            photons: None,
-        };
-        if view.needs_radiosity() {
-            let (solution, is_finished) = self.solve(world, false)?;
-            if !is_finished {
-                return Ok(());
-            }
-            (rays, bytes) = (solution.counters.rays, bytes_of_radiosity(world, &settings));
-            sources.radiosity = Some(solution);
-        }
-        if view.needs_photons() {
-            let mut run = PhotonRun::of(Methods::default().photons(world, &settings)?);
-            if !self.trace_pass(&mut run) {
-                return Ok(());
-            }
-            let maps = run.method().maps();
-            (rays, bytes) = (run.solution().counters.rays, bytes_of_photons(&maps));
-            sources.photons = Some(maps);
-        }
-        let surfaces = surfaces(&sources.transport, self.points);
-        let Some(mut meters) = Meters::new(&sources, view, surfaces, &settings) else { return Ok(()) };
+        let settings = &self.recipe.settings;
+        let Some(lit) = light_of(world, view, settings, self.end, self.cancel)? else { return Ok(()) };
+        let surfaces = surfaces(&lit.sources.transport, self.points);
+        let Some(mut meters) = Meters::new(&lit.sources, view, surfaces, settings) else { return Ok(()) };
         while meters.samples() < settings.image.samples && self.has_time() && meters.step(self.cancel) {
             let samples = meters.samples();
             if samples.is_power_of_two() || samples == settings.image.samples {
-                let price = self.price(start.elapsed(), rays + meters.rays(), bytes);
+                let price = self.price(start.elapsed(), lit.rays + meters.rays(), lit.bytes);
                 if self.tell_samples(samples, price, Found::of_samples(meters.irradiance())).is_break() {
                     return Ok(());
                 }
@@ -286,16 +236,4 @@ impl Trial<'_> {
             }
         }
     }
-}
-
-/// Light of each element and, where it is kept, the matrix.
-fn bytes_of_radiosity(world: &World, settings: &Settings) -> u64 {
-    let light = 4 * size_of::<Rgb>() * world.mesh.elements.len();
-    let matrix = if settings.solver.needs_matrix() { FullMatrix::bytes(&world.mesh) } else { 0 };
-    light as u64 + matrix
-}
-
-/// Photons where they landed, and the tree of them.
-fn bytes_of_photons(maps: &PhotonMaps) -> u64 {
-    (2 * size_of::<Photon>() * maps.photons().len()) as u64
 }

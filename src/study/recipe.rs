@@ -31,6 +31,18 @@ impl Way {
         }
     }
 
+    /// The view from a camera that shows light found in this way.
+    pub fn picture(self) -> CameraView {
+        match self {
+            Self::Radiosity => CameraView::RadiositySpecular,
+            Self::PhotonMap => CameraView::PhotonRadiance,
+            Self::RadiosityDirect => CameraView::RadiosityDirect,
+            Self::FinalGather => CameraView::FinalGather,
+            Self::DiffuseAo => CameraView::DiffuseAmbient,
+            Self::Reference => CameraView::Reference,
+        }
+    }
+
     /// Whether it knows light everywhere once it is done; the others are asked point by point.
     pub fn is_everywhere(self) -> bool {
         matches!(self, Self::Radiosity | Self::PhotonMap)
@@ -145,7 +157,16 @@ impl Recipe {
 
     /// The options of `lightwell probe` that compute light like this.
     pub fn options(&self) -> String {
-        let mut options = format!("--method {}", self.way.name());
+        format!("--method {}{}", self.way.name(), self.options_beside_way())
+    }
+
+    /// The options of `lightwell render` that make a picture of light like this.
+    pub fn options_of_picture(&self) -> String {
+        format!("--view {}{}", self.way.picture().name(), self.options_beside_way())
+    }
+
+    fn options_beside_way(&self) -> String {
+        let mut options = String::new();
         let is_single = |knob: Knob, setting: &Setting| knob == Knob::Passes && *setting == Setting::Number(1.0);
         for (knob, setting) in self.knobs() {
             if setting != Setting::Automatic && !is_single(knob, &setting) {
@@ -162,6 +183,9 @@ impl Recipe {
         let has_photons = matches!(self.way, Way::PhotonMap | Way::FinalGather);
         if has_photons && own.photons.caustic_count != default.photons.caustic_count {
             options += &format!(" --caustic-photons {}", own.photons.caustic_count);
+        }
+        if self.way == Way::RadiosityDirect && own.solver != default.solver {
+            options += &format!(" --solver {}", own.solver.name());
         }
         let has_patches = matches!(self.way, Way::Radiosity | Way::RadiosityDirect);
         if has_patches && own.mesh.elements_per_patch_edge != default.mesh.elements_per_patch_edge {

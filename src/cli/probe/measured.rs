@@ -3,6 +3,7 @@
 use super::super::CliError;
 use super::super::judge::Verdict;
 use crate::accuracy::ProbePoint;
+use crate::cli::budget::Account;
 use crate::math::rgb::Rgb;
 use serde_json::{Value, json};
 use std::io::Write;
@@ -30,14 +31,22 @@ pub enum Quality {
     Share { standard_error: f64, rays: u64 },
 }
 
-/// With how far off they are, where that was measured.
-pub fn print(measured: &[Measured], verdict: Option<&Verdict>, as_json: bool) -> Result<(), CliError> {
+/// With how far off they are, where that was measured, and with what a budget has led to, if there was one.
+pub fn print(
+    measured: &[Measured],
+    verdict: Option<&Verdict>,
+    account: Option<&Account>,
+    as_json: bool,
+) -> Result<(), CliError> {
     let mut out = std::io::BufWriter::new(std::io::stdout().lock());
     if as_json {
         let points: Vec<Value> = measured.iter().map(Measured::json).collect();
         let mut report = json!({ "points": points });
         if let Some(verdict) = verdict {
             report["accuracy"] = verdict.json();
+        }
+        if let Some(account) = account {
+            account.add_to(&mut report);
         }
         writeln!(out, "{report}")?;
     } else {
@@ -49,6 +58,9 @@ pub fn print(measured: &[Measured], verdict: Option<&Verdict>, as_json: bool) ->
         }
         if let Some(verdict) = verdict {
             eprint!("{}", verdict.text());
+        }
+        if let Some(account) = account {
+            eprint!("{}", account.text());
         }
     }
     out.flush()?;

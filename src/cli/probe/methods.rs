@@ -62,16 +62,25 @@ pub fn by_photons(options: &Options, world: Arc<World>, points: &[ProbePoint]) -
 
 /// On surfaces and in the air: as many paths as are asked for, or as the time allows.
 pub fn by_paths(options: &Options, world: Arc<World>, points: &[ProbePoint]) -> Result<Vec<Measured>, CliError> {
-    let settings = options.run.settings();
-    let transport = Arc::new(Transport::new(world, settings.effects));
-    let meters = points.iter().map(|at| Sensor::new(&transport, at.point, at.normal)).collect();
-    let mut meters = Sensors::new(transport.clone(), meters, settings.seed);
+    let mut meters = sensors(&options.run.settings(), world, points);
     let time = options.run.time();
     let wanted = options.samples.or(time.is_none().then_some(PATHS)).map_or(u64::MAX, u64::from);
     let (start, time) = (Instant::now(), time.unwrap_or(Duration::MAX));
     while meters.paths() < wanted && (meters.paths() == 0 || start.elapsed() < time) {
         meters.step(1, &Cancel::default());
     }
+    Ok(read(&meters, points))
+}
+
+/// Path-traced meters before their first path.
+pub fn sensors(settings: &Settings, world: Arc<World>, points: &[ProbePoint]) -> Sensors {
+    let transport = Arc::new(Transport::new(world, settings.effects));
+    let meters = points.iter().map(|at| Sensor::new(&transport, at.point, at.normal)).collect();
+    Sensors::new(transport, meters, settings.seed)
+}
+
+/// What the meters at these points say.
+pub fn read(meters: &Sensors, points: &[ProbePoint]) -> Vec<Measured> {
     let measure = |(&at, channels): (&ProbePoint, [Moments; 3])| Measured {
         at,
         value: mean(&channels),
@@ -80,7 +89,7 @@ pub fn by_paths(options: &Options, world: Arc<World>, points: &[ProbePoint]) -> 
             paths: meters.paths(),
         },
     };
-    Ok(points.iter().zip(meters.irradiance()).map(measure).collect())
+    points.iter().zip(meters.irradiance()).map(measure).collect()
 }
 
 /// The share of ambient light is that of a surface, so points must be on one. No emitter is needed.

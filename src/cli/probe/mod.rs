@@ -1,5 +1,6 @@
 //! `lightwell probe`: the irradiance at points, by a method or as it truly is, or the share of ambient light that arrives.
 
+mod budget;
 mod measured;
 mod methods;
 mod points;
@@ -23,9 +24,14 @@ pub struct Options {
     #[command(flatten)]
     run: RunOptions,
     /// What is computed: light by radiosity or photon-map; as the views radiosity-direct, final-gather or diffuse-ao show it;
-    /// by path tracing as reference; or ambient-occlusion
-    #[arg(long, value_name = "METHOD", default_value = Method::default().name(), value_parser = parse::<Method>)]
-    method: Method,
+    /// by path tracing as reference; or ambient-occlusion [default: radiosity, or with --error, or --time, what tells its own
+    /// error]
+    #[arg(long, value_name = "METHOD", value_parser = parse::<Method>)]
+    method: Option<Method>,
+    /// Choose how many paths from each point: the fewest whose error is at most this share of the mean irradiance of the points.
+    /// With --time instead, and no --method, as many as there are in this time in all
+    #[arg(long, value_name = "PERCENT", conflicts_with_all = ["steps", "converge"], value_parser = values::percent)]
+    error: Option<f64>,
     #[command(flatten)]
     photons: PhotonOptions,
     #[command(flatten)]
@@ -113,7 +119,10 @@ impl Choice for Method {
 }
 
 pub fn run(options: &Options) -> Result<(), CliError> {
-    options.check();
+    let budget = options.budget();
+    if budget.is_none() {
+        options.check();
+    }
     let world = options.run.open()?;
     let mut judge = options.accuracy.then(|| Judge::new(world.clone()));
     let points = match (&options.points, &judge) {
@@ -121,7 +130,11 @@ pub fn run(options: &Options) -> Result<(), CliError> {
         (None, Some(judge)) => judge.points().to_vec(),
         (None, None) => accuracy::spread(&world, options.spread.unwrap_or_default() as usize),
     };
-    let measured = match options.method {
+    if let Some(budget) = budget {
+        let (measured, account) = budget::measure(&budget, options, world, &points)?;
+        return measured::print(&measured, None, Some(&account), options.json);
+    }
+    let measured = match options.method() {
         Method::Light(LightMethod::Radiosity) => methods::by_radiosity(options, world, &points)?,
         Method::Light(LightMethod::PhotonMap) => methods::by_photons(options, world, &points)?,
         Method::View(view) => methods::by_view(options, view, world, &points)?,
@@ -130,10 +143,14 @@ pub fn run(options: &Options) -> Result<(), CliError> {
     };
     let found = || Found { irradiance: measured.iter().map(|measured| measured.value).collect(), variance: None };
     let verdict = judge.as_mut().map(|judge| judge.verdict(&found()));
-    measured::print(&measured, verdict.as_ref(), options.json)
+    measured::print(&measured, verdict.as_ref(), None, options.json)
 }
 
 impl Options {
+    fn method(&self) -> Method {
+        self.method.unwrap_or_default()
+    }
+
     /// Those with which a view is made: its rays to the emitters are its own.
     fn settings_of_view(&self) -> Settings {
         let default = ImageSettings::default();
@@ -153,14 +170,14 @@ impl Options {
 
     /// Ends the program, as any other wrong command line does, where an option is about another method.
     fn check(&self) {
-        if let Method::Light(method) = self.method {
+        if let Method::Light(method) = self.method() {
             check_method(method, &self.run, &self.photons);
         }
-        let name = self.method.name();
+        let name = self.method().name();
         if let Some(option) = self.stranger() {
             refuse(&format!("{option} is not for --method {name}"));
         }
-        let Some(view) = self.method.view() else { return };
+        let Some(view) = self.method().view() else { return };
         if self.run.light_rays.is_some_and(|rays| rays > ImageSettings::MAX_LIGHT_RAYS) {
             refuse(&format!("--method {name} takes up to {} --light-rays", ImageSettings::MAX_LIGHT_RAYS));
         }
@@ -174,15 +191,15 @@ impl Options {
     /// An option that the method has no use for.
     fn stranger(&self) -> Option<&'static str> {
         let unless = |is_used: bool, option: Option<&'static str>| option.filter(|_| !is_used);
-        let view = self.method.view();
-        let is_light = matches!(self.method, Method::Light(_));
-        let is_share = self.method == Method::AmbientOcclusion;
-        let is_read = matches!(self.method, Method::View(_) | Method::Reference);
+        let view = self.method().view();
+        let is_light = matches!(self.method(), Method::Light(_));
+        let is_share = self.method() == Method::AmbientOcclusion;
+        let is_read = matches!(self.method(), Method::View(_) | Method::Reference);
         let shows = |used: fn(CameraView) -> bool| view.is_some_and(used);
         unless(is_light || shows(CameraView::needs_photons), self.photons.given())
             .or(unless(is_light || shows(CameraView::needs_radiosity), self.run.stop_of_radiosity()))
             .or(unless(is_light || shows(CameraView::samples_emitters), self.run.light_rays.map(|_| "--light-rays")))
-            .or(unless(shows(|view| view == CameraView::FinalGather), self.gather_rays.map(|_| "--gather-rays")))
+            .or(unless(shows(CameraView::gathers), self.gather_rays.map(|_| "--gather-rays")))
             .or(unless(shows(CameraView::is_occluded), self.occlusion.given()))
             .or(unless(!is_share, self.accuracy.then_some("--accuracy")))
             .or(unless(is_read, self.samples.map(|_| "--samples")))

@@ -2,6 +2,7 @@
 
 use super::{Drawn, Options};
 use crate::cancel::Cancel;
+use crate::choice::Choice;
 use crate::cli::run_options::Solved;
 use crate::cli::solve::report;
 use crate::cli::{CliError, picture};
@@ -35,8 +36,9 @@ impl Options {
                 diagram::item_buffer(&picked.item_buffer, world, limit)
             }
         };
+        report["picture"]["view"] = json!(diagram.name());
         let facts = picture::diagram_facts(world, &light, settings, diagram);
-        Ok(Drawn { picture, facts, report })
+        Ok(Drawn { picture, facts, report, account: None })
     }
 
     /// The scene with its radiosity, and with what the picked patch sees.

@@ -1,16 +1,17 @@
 //! `lightwell render`: a picture without a window.
 
+mod budget;
 mod diagrams;
 mod subject;
 mod views;
 
+use super::budget::Account;
 use super::camera_options::CameraOptions;
 use super::image_options::ImageOptions;
 use super::occlusion_options::OcclusionOptions;
 use super::photon_options::PhotonOptions;
 use super::run_options::RunOptions;
 use super::{CliError, picture, refuse, values};
-use crate::choice::Choice;
 use crate::methods::{OcclusionSettings, Settings};
 use crate::viewport::{Picture, View};
 use serde_json::{Value, json};
@@ -28,9 +29,15 @@ pub struct Options {
     /// What to show: patches, smooth, unshot, absorbed, bounces or form-factors of radiosity; photons or kd-tree;
     /// photon-irradiance, photon-radiance, caustics, ray-traced, radiosity-specular, radiosity-direct or final-gather by rays from the
     /// camera, reference by path tracing; ambient-occlusion, diffuse or diffuse-ao with even light from everywhere, ambient-occlusion-vertices on the
-    /// mesh, ao-minus-indirect against the true light between surfaces; the diagrams matrix or item-buffer
-    #[arg(long, default_value = View::default().name(), value_parser = Subject::parse)]
-    view: Subject,
+    /// mesh, ao-minus-indirect against the true light between surfaces; error-of- and a view, against the reference; the
+    /// diagrams matrix or item-buffer [default: smooth, or with --error, or --time, what suits it best]
+    #[arg(long, value_name = "VIEW", value_parser = Subject::parse)]
+    view: Option<Subject>,
+    /// Choose the settings, and the view unless --view says it: the cheapest picture whose error is at most this share of the
+    /// mean radiance of the surfaces that are seen. With --time instead, and no --view, the most accurate within this time in
+    /// all
+    #[arg(long, value_name = "PERCENT", conflicts_with_all = ["steps", "converge"], value_parser = values::percent)]
+    error: Option<f64>,
     /// How many bounces of light the view `bounces` shows
     #[arg(long, value_name = "N", default_value_t = 0)]
     bounce: usize,
@@ -70,22 +77,34 @@ struct Drawn {
     facts: Vec<(String, String)>,
     /// What is said of the picture itself goes under `picture`.
     report: Value,
+    /// What a budget has led to, if there was one.
+    account: Option<Account>,
 }
 
 pub fn run(options: &Options) -> Result<(), CliError> {
-    if let Some(objection) = options.objection() {
-        refuse(&objection);
-    }
-    let Drawn { picture, facts, mut report } = match options.view {
-        Subject::View(view) => options.draw_view(view)?,
-        Subject::Diagram(diagram) => options.draw_diagram(diagram)?,
+    let budget = options.budget();
+    let Drawn { picture, facts, mut report, account } = match budget {
+        Some(budget) => options.draw_within(&budget)?,
+        None => {
+            if let Some(objection) = options.objection() {
+                refuse(&objection);
+            }
+            match options.view() {
+                Subject::View(view) => options.draw_view(view)?,
+                Subject::Diagram(diagram) => options.draw_diagram(diagram)?,
+            }
+        }
     };
     picture::save(&options.output, &picture, &facts)?;
     if options.json {
         report["picture"]["file"] = json!(options.output);
         report["picture"]["size"] = json!(picture.size);
-        report["picture"]["view"] = json!(options.view.name());
+        if let Some(account) = &account {
+            account.add_to(&mut report);
+        }
         writeln!(std::io::stdout(), "{report}")?;
+    } else if let Some(account) = &account {
+        write!(std::io::stdout(), "{}", account.text())?;
     }
     Ok(())
 }
@@ -94,10 +113,14 @@ pub fn run(options: &Options) -> Result<(), CliError> {
 const SAMPLES: u32 = 16;
 
 impl Options {
+    fn view(&self) -> Subject {
+        self.view.unwrap_or(Subject::View(View::default()))
+    }
+
     fn settings(&self) -> Settings {
         let settings = self.run.settings();
         // Radiosity's own, or those of the view: one option, but two numbers.
-        let is_of_view = self.view.samples_emitters();
+        let is_of_view = self.view().samples_emitters();
         let light_rays = if is_of_view { Settings::default().light_rays } else { settings.light_rays };
         let own = self.run.light_rays.filter(|_| is_of_view);
         let image = self.image.settings(own);

@@ -90,15 +90,15 @@ impl Options {
     /// Why these options do not lead to the picture, if they do not.
     pub(super) fn objection(&self) -> Option<String> {
         let effects = || {
-            let name = format!("the view `{}`", self.view.name());
-            self.run.effects.objection(self.view.worker_subject(), &self.settings(), &name)
+            let name = format!("the view `{}`", self.view().name());
+            self.run.effects.objection(self.view().worker_subject(), &self.settings(), &name)
         };
         self.what_is_needed().map(str::to_owned).or_else(|| self.what_is_strange()).or_else(effects)
     }
 
     fn what_is_needed(&self) -> Option<&'static str> {
         let solver = self.run.settings().solver;
-        match self.view {
+        match self.view() {
             Subject::View(View::FormFactors) | Subject::Diagram(Diagram::ItemBuffer)
                 if self.patch.is_none() && self.pick.is_none() =>
             {
@@ -116,7 +116,7 @@ impl Options {
 
     /// Options that the view does not use, or not so.
     fn what_is_strange(&self) -> Option<String> {
-        let view = self.view;
+        let view = self.view();
         let unused = |option: &str| Some(format!("{option} is not for the view `{}`", view.name()));
         if view.is_radiosity() {
             if let Some(objection) = self.run.objection_by_radiosity().filter(|_| !view.samples_emitters()) {

@@ -100,34 +100,47 @@ impl Options {
         let is_timed = self.run.time().is_some() && solved.is_none();
         let samples = self.samples.or((!is_timed).then_some(SAMPLES));
         let (image, photons) = tracing.picture(&shot, solution.clone(), samples)?;
-        let world = &tracing.world;
-        let frame = self.frame(world, &settings, View::Camera(view), solution.as_deref());
-        let mut report = match (&solved, &photons) {
-            (Some(solved), _) => report(solved),
-            (None, Some(photons)) => photon_report(world, &settings, photons),
+        let light = Light { solution, photons: photons.map(Arc::new), ..Light::default() };
+        self.draw_image(gpu, &tracing.world, &settings, light, image)
+    }
+
+    /// A picture by rays, and the light that it was read off.
+    pub(super) fn draw_image(
+        &self,
+        gpu: &Gpu,
+        world: &Arc<World>,
+        settings: &Settings,
+        light: Light,
+        image: CameraImage,
+    ) -> Result<Drawn, CliError> {
+        let view = image.view;
+        let frame = self.frame(world, settings, View::Camera(view), light.solution.as_deref());
+        let mut bill = image.bill;
+        let mut report = match (&light.solution, &light.photons) {
+            (Some(solution), _) => {
+                bill += &solution.counters.bill;
+                let solution = Solution::clone(solution);
+                report(&Solved { world: world.clone(), settings: *settings, solution })
+            }
+            (None, Some(photons)) => {
+                bill += &photons.counters.bill;
+                photon_report(world, settings, photons)
+            }
             (None, None) => {
                 let is_classic = view.is_light() && view != CameraView::Reference;
                 let method = if is_classic { "ray-tracing" } else { view.name() };
                 json!({ "scene": world.scene.name, "method": method })
             }
         };
-        let mut bill = image.bill;
-        if let Some(solution) = &solution {
-            bill += &solution.counters.bill;
-        }
-        if let Some(photons) = &photons {
-            bill += &photons.counters.bill;
-        }
-        effect_options::report(&mut report, Subject::Camera(view), world, &settings, &bill);
+        effect_options::report(&mut report, Subject::Camera(view), world, settings, &bill);
         report["picture"] = image_report(&image, view.is_light().then_some(frame.exposure_ev));
-        let light =
-            Light { solution, photons: photons.map(Arc::new), image: Some(Arc::new(image)), ..Light::default() };
+        let light = Light { image: Some(Arc::new(image)), ..light };
         if view.is_comparison()
             && let Some(reason) = frame.view.missing(&light)
         {
             return Err(CliError::Missing(reason));
         }
-        self.draw(gpu, world, &settings, &light, &frame, report)
+        self.draw(gpu, world, settings, &light, &frame, report)
     }
 
     fn frame(&self, world: &World, settings: &Settings, view: View, solution: Option<&Solution>) -> Frame {
@@ -153,7 +166,7 @@ impl Options {
         settings: &Settings,
         light: &Light,
         frame: &Frame,
-        report: Value,
+        mut report: Value,
     ) -> Result<Drawn, CliError> {
         let samples = match frame.view {
             // A picture by rays has its samples already.
@@ -163,7 +176,8 @@ impl Options {
             _ => self.samples.unwrap_or(SAMPLES),
         };
         let picture = render_picture(gpu, world, light, frame, samples)?;
-        Ok(Drawn { picture, facts: picture::facts(world, light, settings, frame), report })
+        report["picture"]["view"] = json!(frame.view.name());
+        Ok(Drawn { picture, facts: picture::facts(world, light, settings, frame), report, account: None })
     }
 }
 

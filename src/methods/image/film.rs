@@ -1,14 +1,13 @@
 //! A picture in the making: coarse at first, then every pixel, then more samples of each.
 
-use super::draws::{Draws, Use};
-use super::eye_path::{Look, Sight, Tools};
-use crate::camera::{Camera, EyeRays};
+use super::eye_path::{Look, Sight};
+use super::shutter::Shutter;
+use crate::camera::Camera;
 use crate::cancel::Cancel;
 use crate::math::rgb::Rgb;
 use crate::methods::cost::Cost;
 use crate::methods::photon_map::Scratch;
 use crate::methods::transport::Media;
-use glam::Vec2;
 use rayon::prelude::*;
 
 /// Pixels along the edge of a cell, in the passes that come before the first whole one.
@@ -20,11 +19,7 @@ const TILES_PER_STEP: usize = 16;
 
 /// Sums over the samples of each pixel, and how far the pass under way has come.
 pub struct Film {
-    eye_rays: EyeRays,
-    /// The glass that the eye is in.
-    media: Media,
-    size: [u32; 2],
-    seed: u64,
+    shutter: Shutter,
     /// The newest whole grid of coarse cells.
     coarse: Option<Grid>,
     /// The grid under way, while passes are coarse.
@@ -65,10 +60,7 @@ pub struct Developed {
 impl Film {
     pub fn new(camera: &Camera, media: Media, size: [u32; 2], seed: u64) -> Self {
         Self {
-            eye_rays: camera.rays(size),
-            media,
-            size,
-            seed,
+            shutter: Shutter::new(camera, media, size, seed),
             coarse: None,
             next_coarse: Grid::new(size, COARSE_CELLS[0]),
             sums: vec![Sum::default(); size[0] as usize * size[1] as usize],
@@ -79,7 +71,7 @@ impl Film {
     }
 
     pub fn seed(&self) -> u64 {
-        self.seed
+        self.shutter.seed
     }
 
     /// Whole passes over all pixels that are done.
@@ -104,7 +96,7 @@ impl Film {
     /// Works on some tiles of the pass under way; false, and nothing changes, if stopped.
     pub fn expose(&mut self, eye: &dyn Look, cancel: &Cancel) -> bool {
         let cell = self.cell();
-        let resolution = self.size.map(|pixels| pixels.div_ceil(cell));
+        let resolution = self.shutter.size.map(|pixels| pixels.div_ceil(cell));
         let across = resolution[0].div_ceil(TILE) as usize;
         let tiles = across * resolution[1].div_ceil(TILE) as usize;
         let range = self.tiles_done..(self.tiles_done + TILES_PER_STEP).min(tiles);
@@ -131,20 +123,10 @@ impl Film {
                 return None;
             }
             for x in tile.columns.clone() {
-                sights.push(self.sample([x, y], cell, eye, &mut scratch, &mut cost));
+                sights.push(self.shutter.sample([x, y], cell, self.samples(), eye, &mut scratch, &mut cost));
             }
         }
         Some((sights, cost))
-    }
-
-    /// One sample of a cell: of a coarse one in its middle, of a pixel anywhere in it.
-    fn sample(&self, at: [u32; 2], cell: u32, eye: &dyn Look, scratch: &mut Scratch, cost: &mut Cost) -> Sight {
-        let [x, y] = at.map(|i| i * cell);
-        let pixel = u64::from(y) * u64::from(self.size[0]) + u64::from(x);
-        let mut draws = Draws::new(self.seed, pixel, self.samples());
-        let inside = if cell == 1 { draws.spread(Use::Pixel, 0, 1) } else { Vec2::splat(0.5) };
-        let place = Vec2::new(x as f32, y as f32) + inside * cell as f32;
-        eye.look(self.eye_rays.through(place.to_array()), self.media, &mut Tools { draws: &mut draws, scratch, cost })
     }
 
     fn keep(&mut self, tile: &Tile, width: u32, sights: &[Sight]) {
@@ -167,7 +149,7 @@ impl Film {
     fn end_pass(&mut self) {
         if let Some(cell) = COARSE_CELLS.get(self.pass) {
             let next = COARSE_CELLS.get(self.pass + 1).unwrap_or(cell);
-            self.coarse = Some(std::mem::replace(&mut self.next_coarse, Grid::new(self.size, *next)));
+            self.coarse = Some(std::mem::replace(&mut self.next_coarse, Grid::new(self.shutter.size, *next)));
         } else {
             // Every pixel has a value of its own now.
             self.coarse = None;
@@ -191,14 +173,14 @@ impl Film {
     /// Pixels without a sample of their own take over their cell's.
     fn develop_pixels(&self, coarse: Option<&Grid>) -> Developed {
         let value = |(index, sum): (usize, &Sum)| match coarse {
-            Some(grid) if sum.samples == 0 => grid.value(index, self.size[0]),
+            Some(grid) if sum.samples == 0 => grid.value(index, self.shutter.size[0]),
             _ => {
                 let scale = 1.0 / sum.samples.max(1) as f32;
                 (sum.radiance * scale, sum.covered * scale)
             }
         };
         let (radiance, coverage) = self.sums.iter().enumerate().map(value).unzip();
-        Developed { resolution: self.size, radiance, coverage }
+        Developed { resolution: self.shutter.size, radiance, coverage }
     }
 }
 

@@ -13,7 +13,9 @@ mod gather;
 mod lights;
 mod meters;
 mod photon_light;
+mod pixels;
 mod reference;
+mod shutter;
 
 use crate::camera::Camera;
 use crate::cancel::Cancel;
@@ -32,6 +34,7 @@ use gather::GatherLight;
 use lights::{DirectLight, PatchLight, RadiosityLight};
 pub use meters::Meters;
 use photon_light::{PhotonLight, Shown};
+pub use pixels::{Pixels, spread_pixels};
 use std::sync::Arc;
 use std::time::Duration;
 

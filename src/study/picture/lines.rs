@@ -1,0 +1,108 @@
+//! Ways to make a picture, each with light that can be made finer.
+
+use super::draft::Draft;
+use crate::mesh::MeshSettings;
+use crate::methods::{ImageSettings, PhotonSettings, Settings, Solver};
+use crate::study::bench::Bench;
+use crate::study::recipe::{Recipe, Way};
+
+/// Longest edge of an element to begin with, in those of the automatic mesh.
+const COARSE: f32 = 4.0;
+/// Photons to begin with, and how many times as many the next light has.
+const PHOTONS: u32 = 100_000;
+const MORE_PHOTONS: u32 = 4;
+/// Light between surfaces is smooth: what is unshot at last is far below what else it is off by.
+const UNSHOT: f64 = 5e-3;
+/// Rays of a sample: the more samples, the smoother the edges.
+const GATHER_RAYS: u32 = 16;
+const LIGHT_RAYS: u32 = 2;
+
+/// A way to make a picture, and how fine its light is by now.
+pub struct Line {
+    first: Recipe,
+    /// How often the light was made finer.
+    turns: i32,
+    /// What is expected of the next turn: to the seconds of the light, and to its bias.
+    growth: f64,
+    decay: f64,
+    last: Option<(f64, f64)>,
+    /// The draft with the finest light so far.
+    pub draft: Option<usize>,
+    pub has_ended: bool,
+}
+
+/// All ways, or one of them.
+pub fn of(bench: &Bench, settings: &Settings, way: Option<Way>) -> Vec<Line> {
+    let image = ImageSettings { gather_rays: GATHER_RAYS, light_rays: LIGHT_RAYS, ..settings.image };
+    let size = settings.mesh.element_size.unwrap_or(COARSE * bench.world().element_size);
+    let mesh = MeshSettings { element_size: Some(size), ..settings.mesh };
+    let radiosity = Settings { mesh, solver: Solver::Southwell, unshot_limit: UNSHOT, image, ..*settings };
+    let photons = PhotonSettings { count: PHOTONS, caustic_count: PHOTONS, ..settings.photons };
+    let line = |way, settings| Line {
+        first: Recipe { way, settings },
+        turns: 0,
+        growth: 6.0,
+        decay: 0.5,
+        last: None,
+        draft: None,
+        has_ended: false,
+    };
+    let all = [
+        line(Way::Reference, Settings { image, ..*settings }),
+        line(Way::RadiosityDirect, radiosity),
+        line(Way::FinalGather, Settings { photons, image, ..*settings }),
+        line(Way::DiffuseAo, Settings { image, ..*settings }),
+    ];
+    all.into_iter().filter(|line| way.is_none_or(|way| way == line.first.way)).collect()
+}
+
+impl Line {
+    /// The next to be tried.
+    pub fn recipe(&self) -> Recipe {
+        let Recipe { way, settings } = self.first;
+        let turns = if self.draft.is_some() { self.turns + 1 } else { self.turns };
+        let settings = match way {
+            Way::RadiosityDirect => {
+                let size = settings.mesh.element_size.map(|size| size * 0.5_f32.powi(turns));
+                Settings { mesh: MeshSettings { element_size: size, ..settings.mesh }, ..settings }
+            }
+            _ => {
+                let more = MORE_PHOTONS.saturating_pow(turns.unsigned_abs());
+                let [count, caustic_count] = [settings.photons.count, settings.photons.caustic_count]
+                    .map(|count| count.saturating_mul(more).min(PhotonSettings::MAX_COUNT));
+                Settings { photons: PhotonSettings { count, caustic_count, ..settings.photons }, ..settings }
+            }
+        };
+        Recipe { way, settings }
+    }
+
+    /// Takes note of what the light took and how far off it is, and of where it is kept.
+    pub fn note(&mut self, seconds: f64, bias: f64, draft: usize) {
+        if self.draft.is_some() {
+            self.turns += 1;
+        }
+        if let Some((seconds_before, bias_before)) = self.last {
+            self.growth = (seconds / seconds_before).clamp(2.0, 16.0);
+            self.decay = (bias / bias_before).clamp(0.2, 1.0);
+        }
+        self.last = Some((seconds, bias));
+        self.draft = Some(draft);
+        // Rays that find all light themselves find no more of it by another light.
+        self.has_ended |= matches!(self.first.way, Way::Reference | Way::DiffuseAo) || self.decay == 1.0;
+    }
+
+    /// Nothing finer is to be had.
+    pub fn end(&mut self) {
+        self.has_ended = true;
+    }
+
+    /// What the next light may be expected to take.
+    pub fn next_light_seconds(&self) -> f64 {
+        self.last.map_or(0.0, |(seconds, _)| seconds * self.growth)
+    }
+
+    /// The error that may be expected of the next light, whose picture may take so long.
+    pub fn next_error(&self, draft: &Draft, seconds: f64) -> f64 {
+        draft.error_with(self.decay, seconds)
+    }
+}
