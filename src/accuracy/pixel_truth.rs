@@ -32,13 +32,11 @@ pub struct PixelTruth {
 }
 
 impl PixelTruth {
-    /// So many pixels tell the root of a mean square to a few percent, whatever the shape of the errors.
-    pub const PIXELS: usize = 1024;
-
-    /// Of a picture of `size` pixels before its first step.
-    pub fn new(world: &Arc<World>, camera: Camera, size: [u32; 2]) -> Self {
+    /// Of `count` pixels, at most, of a picture of `size` before its first step. A thousand tell the root of a mean square to a
+    /// few percent, whatever the shape of the errors.
+    pub fn new(world: &Arc<World>, camera: Camera, size: [u32; 2], count: usize) -> Self {
         let transport = Arc::new(Transport::new(world.clone(), Switches::default()));
-        let places: Arc<[[u32; 2]]> = spread_pixels(&transport, &camera, size, Self::PIXELS).into();
+        let places: Arc<[[u32; 2]]> = spread_pixels(&transport, &camera, size, count).into();
         let sources = Sources { transport, radiosity: None, photons: None };
         let replicate = |index| {
             let image = ImageSettings { samples: ImageSettings::MAX_SAMPLES, ..ImageSettings::default() };

@@ -6,6 +6,7 @@ mod checking;
 mod form_factors;
 mod inspecting;
 mod photons;
+mod pictures_for_budgets;
 mod probing;
 mod rays;
 mod refusing;

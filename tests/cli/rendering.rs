@@ -22,8 +22,10 @@ pub fn can_draw() -> bool {
 pub fn texts(folder: &TempDir, name: &str) -> BTreeMap<String, String> {
     let file = std::fs::File::open(folder.path().join(name)).expect("a file");
     let reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().expect("a picture");
-    let chunks = &reader.info().uncompressed_latin1_text;
-    chunks.iter().map(|chunk| (chunk.keyword.clone(), chunk.text.clone())).collect()
+    let info = reader.info();
+    let plain = info.uncompressed_latin1_text.iter().map(|chunk| (chunk.keyword.clone(), chunk.text.clone()));
+    let other = info.utf8_text.iter().map(|chunk| (chunk.keyword.clone(), chunk.get_text().expect("text")));
+    plain.chain(other).collect()
 }
 
 /// Every pixel of an EXR file.

@@ -86,14 +86,14 @@ impl Pixels {
 }
 
 /// At most so many pixels, spread over a picture, that show surfaces and nothing else, none of which emits: there is no light
-/// to be found where one is seen. Always the same of a picture.
+/// to be found where one is seen. Where no others are seen, those that emit. Always the same of a picture.
 pub fn spread_pixels(transport: &Transport, camera: &Camera, size: [u32; 2], count: usize) -> Vec<[u32; 2]> {
     let eye_rays = camera.rays(size);
-    let is_lit_surface = |[x, y]: [u32; 2]| {
+    let shows = |[x, y]: [u32; 2], may_emit: bool| {
         (0..RAYS_ACROSS * RAYS_ACROSS).all(|i| {
             let inside = [i % RAYS_ACROSS, i / RAYS_ACROSS].map(|i| (i as f32 + 0.5) / RAYS_ACROSS as f32);
-            let ray = eye_rays.through([x as f32 + inside[0], y as f32 + inside[1]]);
-            transport.meet(&ray).is_some_and(|surface| transport.emission(&surface) == Rgb::ZERO)
+            let surface = transport.meet(&eye_rays.through([x as f32 + inside[0], y as f32 + inside[1]]));
+            surface.is_some_and(|surface| may_emit || transport.emission(&surface) == Rgb::ZERO)
         })
     };
     let place = |i| {
@@ -103,5 +103,9 @@ pub fn spread_pixels(transport: &Transport, camera: &Camera, size: [u32; 2], cou
     // Of small pictures each pixel comes up again and again.
     let tries = 4 * u32::try_from(count).unwrap_or(u32::MAX / 4);
     let mut seen = HashSet::new();
-    (0..tries).map(place).filter(|&place| seen.insert(place) && is_lit_surface(place)).take(count).collect()
+    let pixels: Vec<[u32; 2]> = (0..tries).map(place).filter(|&place| seen.insert(place)).collect();
+    let those =
+        |may_emit| pixels.iter().copied().filter(|&pixel| shows(pixel, may_emit)).take(count).collect::<Vec<_>>();
+    let dull = those(false);
+    if dull.is_empty() { those(true) } else { dull }
 }

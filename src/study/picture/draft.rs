@@ -1,13 +1,13 @@
 //! A way to make a picture, tried at some of its pixels.
 
 use super::PictureGoal;
-use crate::accuracy::PixelTruth;
+use crate::accuracy::{Error, PixelTruth};
 use crate::cancel::Cancel;
 use crate::methods::ImageSettings;
 use crate::methods::image::Pixels;
 use crate::study::bench::Bench;
 use crate::study::lit::{Lit, light_of};
-use crate::study::recipe::Recipe;
+use crate::study::recipe::{Recipe, Way};
 use std::fmt;
 use std::time::Instant;
 
@@ -23,7 +23,7 @@ pub struct Draft {
     /// So many pixels of the picture stand behind each of these.
     scale: f64,
     /// Samples and the error after them; each time twice as many.
-    errors: Vec<(u32, f64)>,
+    errors: Vec<(u32, Error)>,
 }
 
 impl Draft {
@@ -69,7 +69,8 @@ impl Draft {
         }
     }
 
-    /// Takes samples until the error is surely as small; false where that takes longer than is allowed for the whole picture.
+    /// After how many samples the error is surely as small, taking them if they were not taken yet; `None` where that takes
+    /// longer than is allowed for the whole picture.
     pub fn expose_until(
         &mut self,
         truth: &mut PixelTruth,
@@ -77,30 +78,31 @@ impl Draft {
         limit: f64,
         end: Instant,
         cancel: &Cancel,
-    ) -> bool {
+    ) -> Option<u32> {
+        let early = self.errors.iter().find(|(_, error)| error.rms + error.uncertainty <= wanted);
+        if let Some((samples, _)) = early {
+            return Some(*samples);
+        }
         let mut next = self.samples();
         loop {
             if self.samples() >= next {
-                let Some(error) = truth.error(&self.pixels.radiance()) else { return false };
+                let error = truth.error(&self.pixels.radiance())?;
                 if error.rms + error.uncertainty <= wanted {
                     self.measure(truth);
-                    return true;
+                    return Some(self.samples());
                 }
                 // A sixteenth more each time.
                 next = self.samples() + self.samples().div_ceil(16);
                 // While that may be due to the truth alone.
                 if error.uncertainty > wanted / 10.0 && !truth.refine(cancel) {
-                    return false;
+                    return None;
                 }
             }
             let is_too_long = self.seconds_a_sample() * f64::from(self.samples()) > limit;
-            if is_too_long
-                || Instant::now() >= end
-                || self.samples() >= ImageSettings::MAX_SAMPLES
-                || !self.step(cancel)
-            {
+            let is_over = is_too_long || Instant::now() >= end || self.samples() >= ImageSettings::MAX_SAMPLES;
+            if is_over || !self.step(cancel) {
                 self.measure(truth);
-                return false;
+                return None;
             }
         }
     }
@@ -114,7 +116,7 @@ impl Draft {
 
     fn measure(&mut self, truth: &PixelTruth) {
         if let Some(error) = truth.error(&self.pixels.radiance()) {
-            self.errors.push((self.samples(), error.rms));
+            self.errors.push((self.samples(), error));
         }
     }
 
@@ -124,7 +126,7 @@ impl Draft {
 
     /// The error after all samples so far.
     pub fn last_error(&self) -> f64 {
-        self.errors.last().map_or(f64::MAX, |(_, error)| *error)
+        self.errors.last().map_or(f64::MAX, |(_, error)| error.rms)
     }
 
     /// For a sample of every pixel of the picture.
@@ -133,12 +135,18 @@ impl Draft {
     }
 
     /// The squares of the bias and of the noise of one sample: what the last error and an earlier one, of a quarter of the
-    /// samples, come from.
+    /// samples, come from. Path tracing has no bias.
     fn parts(&self) -> (f64, f64) {
-        let Some(&(samples, last)) = self.errors.last() else { return (f64::MAX, 0.0) };
-        let earlier = self.errors.iter().rev().find(|(before, _)| 4 * before <= samples).or(self.errors.first());
-        let Some(&(before, first)) = earlier.filter(|(before, _)| *before < samples) else { return (0.0, last * last) };
-        let [samples, before] = [samples, before].map(f64::from);
+        let Some((samples, Error { rms: last, .. })) = self.errors.last() else { return (f64::MAX, 0.0) };
+        let all_noise = (0.0, last * last * f64::from(*samples));
+        if self.recipe.way == Way::Reference {
+            return all_noise;
+        }
+        let earlier = self.errors.iter().rev().find(|(before, _)| 4 * before <= *samples).or(self.errors.first());
+        let Some((before, Error { rms: first, .. })) = earlier.filter(|(before, _)| before < samples) else {
+            return all_noise;
+        };
+        let [samples, before] = [*samples, *before].map(f64::from);
         let noise = (first * first - last * last) / (1.0 / before - 1.0 / samples);
         let noise = noise.clamp(0.0, last * last * samples);
         (last * last - noise / samples, noise)

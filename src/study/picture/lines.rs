@@ -36,12 +36,12 @@ pub fn of(bench: &Bench, settings: &Settings, way: Option<Way>) -> Vec<Line> {
     let image = ImageSettings { gather_rays: GATHER_RAYS, light_rays: LIGHT_RAYS, ..settings.image };
     let size = settings.mesh.element_size.unwrap_or(COARSE * bench.world().element_size);
     let mesh = MeshSettings { element_size: Some(size), ..settings.mesh };
-    let radiosity = Settings { mesh, solver: Solver::Southwell, unshot_limit: UNSHOT, image, ..*settings };
+    let radiosity = Settings { mesh, unshot_limit: UNSHOT, image, ..*settings };
     let photons = PhotonSettings { count: PHOTONS, caustic_count: PHOTONS, ..settings.photons };
     let line = |way, settings| Line {
         first: Recipe { way, settings },
         turns: 0,
-        growth: 6.0,
+        growth: 4.5,
         decay: 0.5,
         last: None,
         draft: None,
@@ -50,10 +50,25 @@ pub fn of(bench: &Bench, settings: &Settings, way: Option<Way>) -> Vec<Line> {
     let all = [
         line(Way::Reference, Settings { image, ..*settings }),
         line(Way::RadiosityDirect, radiosity),
+        line(Way::RadiosityDirect, Settings { solver: Solver::Southwell, ..radiosity }),
         line(Way::FinalGather, Settings { photons, image, ..*settings }),
         line(Way::DiffuseAo, Settings { image, ..*settings }),
     ];
     all.into_iter().filter(|line| way.is_none_or(|way| way == line.first.way)).collect()
+}
+
+/// Ends all lines but one that lead to the same light, as soon as it is known which of them is the fastest.
+pub fn keep_the_faster(lines: &mut [Line]) {
+    let seconds = |line: &Line| line.last.map(|(seconds, _)| seconds);
+    let rivals = lines.iter().filter(|line| line.first.way == Way::RadiosityDirect);
+    if let Some(fastest) = rivals.clone().filter_map(seconds).reduce(f64::min)
+        && rivals.clone().all(|line| line.has_ended || line.turns == 0 && line.last.is_some())
+    {
+        let slower = |line: &&mut Line| {
+            line.first.way == Way::RadiosityDirect && line.turns == 0 && seconds(line).is_some_and(|own| own > fastest)
+        };
+        lines.iter_mut().filter(slower).for_each(Line::end);
+    }
 }
 
 impl Line {
@@ -96,13 +111,13 @@ impl Line {
         self.has_ended = true;
     }
 
-    /// What the next light may be expected to take.
-    pub fn next_light_seconds(&self) -> f64 {
-        self.last.map_or(0.0, |(seconds, _)| seconds * self.growth)
+    /// What light that is finer by so many turns may be expected to take.
+    pub fn light_seconds(&self, turns: i32) -> f64 {
+        self.last.map_or(0.0, |(seconds, _)| seconds * self.growth.powi(turns))
     }
 
-    /// The error that may be expected of the next light, whose picture may take so long.
-    pub fn next_error(&self, draft: &Draft, seconds: f64) -> f64 {
-        draft.error_with(self.decay, seconds)
+    /// The error that may be expected of it, in a picture that may take so long.
+    pub fn error(&self, draft: &Draft, turns: i32, seconds: f64) -> f64 {
+        draft.error_with(self.decay.powi(turns), seconds)
     }
 }

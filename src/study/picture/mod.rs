@@ -1,4 +1,4 @@
-//! From a wish to a picture: ways to make it are tried at a thousand of its pixels, whose light is known, and what these show of
+//! From a wish to a picture: ways to make it are tried at some of its pixels, whose light is known, and what these show of
 //! error and price says which way the whole picture is made in.
 
 mod draft;
@@ -21,20 +21,26 @@ use std::time::{Duration, Instant};
 /// An error counts as reached when it is below this share of what is wanted: it is measured in a thousand pixels, and meant in
 /// all.
 const SAFE: f64 = 0.9;
+/// Pixels that tell an error that is wanted; and where time is short, so that more is known of each.
+const PIXELS: usize = 1024;
+const FEW_PIXELS: usize = 256;
 /// Share of the time allowed in which the truth is looked for before anything else.
-const FIRST_TRUTH: f64 = 0.08;
+const FIRST_TRUTH: f64 = 0.12;
 /// The truth may be off by this share of what is wanted: over a thousand pixels that comes to a few percent of an error.
 const FLOOR: f64 = 0.7;
 /// Share of an error by which it may be uncertain when it is told at last.
 const SURE: f64 = 0.05;
-/// Share of the time left that finding a way's light may take.
-const LIGHT: f64 = 0.3;
+/// Share of the time left that finding a way's light may take, and the first of it, of which nothing is known.
+const LIGHT: f64 = 0.45;
+const FIRST_LIGHT: f64 = 0.12;
 /// Share of the time left that trying a way on pixels may take.
 const TRIAL: f64 = 0.02;
 /// Samples of a pixel after which the errors of a way can be foreseen.
 const SAMPLES: u32 = 16;
 /// What is to be gained by a finer light, at least, as a share of the error.
 const LEVEL: f64 = 0.97;
+/// Light may turn out to be worth it that is finer by so many turns.
+const MOST_TURNS: usize = 3;
 /// A way that takes so many times as long as foreseen is given up.
 const PATIENCE: f64 = 3.0;
 /// When a search without a limit is given up.
@@ -73,7 +79,8 @@ pub struct Pictured {
 pub fn picture(bench: &mut Bench, settings: &Settings, goal: &PictureGoal, cancel: &Cancel) -> Option<Pictured> {
     let start = Instant::now();
     let end = goal.end.unwrap_or(start + LONGEST);
-    let truth = PixelTruth::new(bench.world(), goal.camera, goal.size);
+    let pixels = if goal.error.is_some() { PIXELS } else { FEW_PIXELS };
+    let truth = PixelTruth::new(bench.world(), goal.camera, goal.size, pixels);
     let mut search = Search { goal, truth, end, cancel, drafts: Vec::new() };
     search.look_at_truth(start);
     if search.truth.is_dark() {
@@ -84,6 +91,14 @@ pub fn picture(bench: &mut Bench, settings: &Settings, goal: &PictureGoal, cance
         Some(wanted) => search.picture_of_error(wanted),
         None => search.picture_of_time(),
     }
+}
+
+/// The draft that came nearest to an error.
+struct Best {
+    draft: Draft,
+    samples: u32,
+    promise: Promise,
+    error: f64,
 }
 
 /// The state of a search.
@@ -117,16 +132,14 @@ impl Search<'_> {
         let mut lines = lines::of(bench, settings, self.goal.way);
         while let Some(line) = self.next(&lines) {
             let recipe = lines[line].recipe();
-            let light_end = match self.goal.error {
-                Some(_) => self.end,
-                None => Instant::now() + Duration::from_secs_f64(LIGHT * self.seconds_left()),
-            };
+            let light_end = Instant::now() + Duration::from_secs_f64(self.light_seconds(&lines[line]));
             match Draft::begin(bench, &recipe, self.goal, &self.truth, light_end, self.cancel) {
                 Some(mut draft) => {
                     draft.look(&self.truth, SAMPLES, TRIAL * self.seconds_left(), self.cancel);
                     log::info!("{draft}");
                     lines[line].note(draft.light_seconds, draft.bias(), self.drafts.len());
                     self.drafts.push(draft);
+                    lines::keep_the_faster(&mut lines);
                 }
                 None => lines[line].end(),
             }
@@ -136,27 +149,44 @@ impl Search<'_> {
         }
     }
 
+    /// What the next light of a line may take.
+    fn light_seconds(&self, line: &Line) -> f64 {
+        let left = self.seconds_left();
+        match self.goal.error {
+            // Light may take as long as what is known to be good enough.
+            Some(wanted) => self.least_seconds(wanted).min(left),
+            None if line.draft.is_none() => FIRST_LIGHT * left,
+            None => LIGHT * left,
+        }
+    }
+
+    /// How long the cheapest picture of an error takes that is known by now.
+    fn least_seconds(&self, wanted: f64) -> f64 {
+        self.drafts.iter().filter_map(|draft| draft.seconds_to(SAFE * wanted)).fold(f64::MAX, f64::min)
+    }
+
     /// The way to be tried next, if any is worth it.
     fn next(&self, lines: &[Line]) -> Option<usize> {
-        let is_fresh = |line: &Line| line.draft.is_none();
-        lines.iter().position(|line| !line.has_ended && (is_fresh(line) || self.is_worth_refining(line)))
+        let fresh = lines.iter().position(|line| !line.has_ended && line.draft.is_none());
+        fresh.or_else(|| lines.iter().position(|line| !line.has_ended && self.is_worth_refining(line)))
     }
 
     /// Whether a finer light may pay.
     fn is_worth_refining(&self, line: &Line) -> bool {
         let Some(draft) = line.draft.map(|draft| &self.drafts[draft]) else { return false };
-        let light = line.next_light_seconds();
         match self.goal.error {
             // It is not good enough, and a better one takes less time than what is good enough.
             Some(wanted) => {
                 let best =
                     self.drafts.iter().filter_map(|draft| draft.seconds_to(SAFE * wanted)).fold(f64::MAX, f64::min);
-                draft.seconds_to(SAFE * wanted).is_none_or(|seconds| seconds > best) && light < best
+                draft.seconds_to(SAFE * wanted).is_none_or(|seconds| seconds > best) && line.light_seconds(1) < best
             }
             None => {
                 let left = self.seconds_left();
                 let best = self.drafts.iter().map(|draft| draft.error_in(left)).fold(f64::MAX, f64::min);
-                light <= LIGHT * left && line.next_error(draft, left - light) < LEVEL * best
+                let is_affordable = |turns: &i32| line.light_seconds(*turns) <= LIGHT * left;
+                let error = |turns| line.error(draft, turns, left - line.light_seconds(turns));
+                (1..).take_while(is_affordable).take(MOST_TURNS).map(error).any(|error| error < LEVEL * best)
             }
         }
     }
@@ -173,7 +203,7 @@ impl Search<'_> {
 
     /// The cheapest that is good enough, as its pixels show before the others are made; where none is, the best.
     fn picture_of_error(&mut self, wanted: f64) -> Option<Pictured> {
-        let mut best: Option<(Draft, Promise, f64)> = None;
+        let mut best: Option<Best> = None;
         while !self.drafts.is_empty() {
             let price = |draft: &Draft| draft.seconds_to(SAFE * wanted).unwrap_or(f64::MAX);
             let order = |&a: &usize, &b: &usize| price(&self.drafts[a]).total_cmp(&price(&self.drafts[b]));
@@ -185,17 +215,16 @@ impl Search<'_> {
             // What is known to have no bias gets there in the end.
             let patience = if draft.recipe.way == Way::Reference { f64::MAX } else { PATIENCE };
             let limit = foreseen.map_or(0.0, |seconds| patience * seconds);
-            let is_met = draft.expose_until(&mut self.truth, SAFE * wanted, limit, self.end, self.cancel);
+            let samples = draft.expose_until(&mut self.truth, SAFE * wanted, limit, self.end, self.cancel);
             let error = draft.last_error();
-            if is_met || best.as_ref().is_none_or(|(.., best)| error < *best) {
-                best = Some((draft, promise, error));
+            if samples.is_some() || best.as_ref().is_none_or(|best| error < best.error) {
+                best = Some(Best { samples: samples.unwrap_or(draft.samples()), draft, promise, error });
             }
-            if is_met || self.cancel.is_requested() || Instant::now() >= self.end {
+            if samples.is_some() || self.cancel.is_requested() || Instant::now() >= self.end {
                 break;
             }
         }
-        let (draft, promise, _) = best?;
-        let samples = draft.samples();
+        let Best { draft, samples, promise, .. } = best?;
         self.expose(draft, samples, promise)
     }
 
