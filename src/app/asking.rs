@@ -1,9 +1,11 @@
 //! Settings that suit a wish, or a study, looked for while the window goes on.
 
 use crate::accuracy::Cache;
+use crate::cli::picture::{Claim, subject};
 use crate::scene::Scene;
 use crate::study::{Answer, Choice, Inquiry, Question, State};
-use crate::worker::Snapshot;
+use crate::viewport::View;
+use crate::worker::{Snapshot, TrackPoint};
 use std::sync::Arc;
 
 /// What is asked about the scene on show, if anything is.
@@ -48,6 +50,29 @@ impl Asking {
     /// What is known of the answer.
     pub fn latest(&self) -> Option<Arc<Answer>> {
         self.inquiry.as_ref().map(Inquiry::latest)
+    }
+
+    /// How far off the light is that a view shows itself, and how it was chosen if the settings in force are those that were
+    /// found; `None` where that was not measured.
+    pub fn claim(&self, snapshot: &Snapshot, view: View) -> Option<Claim> {
+        let kind = subject(view).light().filter(|_| !matches!(view, View::Camera(_)))?;
+        let track = snapshot.tracks.iter().rfind(|track| track.kind == kind)?;
+        let TrackPoint { seconds, error } = *track.points.last()?;
+        let answer = self.latest();
+        let chosen = answer.as_deref().and_then(|answer| match &answer.state {
+            State::Found(choice) if choice.recipe.applied_to(&track.settings) == track.settings => {
+                Some((answer.question, choice.recipe.options()))
+            }
+            _ => None,
+        });
+        let question = chosen.as_ref().map(|(question, _)| *question);
+        Some(Claim {
+            error_wanted: question.and_then(Question::error),
+            time_allowed: question.and_then(Question::time),
+            error,
+            seconds,
+            options: chosen.map(|(_, options)| options),
+        })
     }
 
     /// What is new since the last call. An answer about another scene than the one on show is given up.

@@ -1,5 +1,6 @@
 //! Budgets: an error that is wanted, a time that is allowed, or both; and how what came of them is told.
 
+use super::picture::Claim;
 use super::refuse;
 use super::run_options::RunOptions;
 use crate::accuracy::Error;
@@ -103,26 +104,20 @@ impl Account {
     pub fn text(&self) -> String {
         let seconds = self.seconds();
         let kept = if self.is_kept(seconds) { "the promise was kept" } else { "THE PROMISE WAS NOT KEPT" };
-        let [promised, achieved, chosen] = self.parts();
+        let claim = self.claim();
+        let (promised, achieved) = (claim.promised(), claim.achieved());
+        let chosen = &self.options;
         format!("  promised: {promised}\n  achieved: {achieved}, {seconds:.2} s in all: {kept}\n  chosen: {chosen}\n")
     }
 
-    /// The same for a picture, as names and values; how long all of it took is not known before it is written.
-    pub fn facts(&self) -> Vec<(String, String)> {
-        let names = ["Promised", "Achieved", "Chosen"].map(str::to_owned);
-        names.into_iter().zip(self.parts()).collect()
-    }
-
-    /// What was promised, what was achieved, and how.
-    fn parts(&self) -> [String; 3] {
-        let percent = |share: f64| format!("{:.2} %", 100.0 * share);
-        let wanted = [
-            self.budget.error.map(|error| format!("an error of {}", percent(error))),
-            self.budget.time.map(|time| format!("{:.2} s in all", time.as_secs_f64())),
-        ];
-        let wanted: Vec<String> = wanted.into_iter().flatten().collect();
-        let [error, uncertainty] = [self.error.rms, self.error.uncertainty].map(percent);
-        let achieved = format!("an error of {error} ± {uncertainty} in {:.3} s of the solver", self.solver_seconds);
-        [wanted.join(", "), achieved, self.options.clone()]
+    /// The same for a picture; how long all of it takes is not known before it is written.
+    pub fn claim(&self) -> Claim {
+        Claim {
+            error_wanted: self.budget.error,
+            time_allowed: self.budget.time,
+            error: self.error,
+            seconds: self.solver_seconds,
+            options: Some(self.options.clone()),
+        }
     }
 }

@@ -1,9 +1,10 @@
 //! What a picture says of itself in its file: how it was made, so that it can be made again.
 
+use crate::accuracy::Error;
 use crate::choice::Choice;
 use crate::effects::Effect;
 use crate::methods::{OcclusionSettings, Settings};
-use crate::solution::{CameraImage, CameraView, PhotonSolution, VertexShares};
+use crate::solution::{CameraImage, CameraView, Comparison, PhotonSolution, PictureError, VertexShares};
 use crate::viewport::diagram::Diagram;
 use crate::viewport::{Frame, Light, View};
 use crate::worker::Subject;
@@ -18,6 +19,53 @@ impl Facts {
     fn add(&mut self, name: &str, value: impl ToString) {
         self.0.push((name.to_owned(), value.to_string()));
     }
+}
+
+/// What light was to be, what came of it, and how it was computed.
+pub struct Claim {
+    /// As a share of the mean light.
+    pub error_wanted: Option<f64>,
+    /// From the start of the program, or of the search.
+    pub time_allowed: Option<Duration>,
+    pub error: Error,
+    /// Of the solver, and of the picture if the error is that of a picture.
+    pub seconds: f64,
+    /// The options that do it again, where it was chosen.
+    pub options: Option<String>,
+}
+
+impl Claim {
+    /// What was asked for; empty where nothing was.
+    pub fn promised(&self) -> String {
+        let wanted = [
+            self.error_wanted.map(|error| format!("an error of {}", percent(error))),
+            self.time_allowed.map(|time| format!("{:.2} s in all", time.as_secs_f64())),
+        ];
+        wanted.into_iter().flatten().collect::<Vec<String>>().join(", ")
+    }
+
+    pub fn achieved(&self) -> String {
+        let [error, uncertainty] = [self.error.rms, self.error.uncertainty].map(percent);
+        format!("an error of {error} ± {uncertainty} in {:.3} s of the solver", self.seconds)
+    }
+
+    /// As names and values.
+    pub fn facts(&self) -> Vec<(String, String)> {
+        let mut facts = Facts::default();
+        let promised = self.promised();
+        if !promised.is_empty() {
+            facts.add("Promised", promised);
+        }
+        facts.add("Achieved", self.achieved());
+        if let Some(options) = &self.options {
+            facts.add("Chosen", options);
+        }
+        facts.0
+    }
+}
+
+fn percent(share: f64) -> String {
+    format!("{:.2} %", 100.0 * share)
 }
 
 /// Whose work a view shows.
@@ -170,6 +218,9 @@ impl Facts {
         }
         if let Some(comparison) = light.image_of(view).and_then(|image| image.comparison) {
             self.add("Range", comparison.range());
+            if let Comparison::Error(PictureError { rms, floor, .. }) = comparison {
+                self.add("Error", format!("{} of the mean radiance, reference {}", percent(rms), percent(floor)));
+            }
         }
         if view.has_paths() && !settings.image.filter.passes_all() {
             self.add("Paths", settings.image.filter.as_str());

@@ -1,7 +1,7 @@
 //! Pictures as files, with what is needed to make them again.
 
 use super::CliError;
-pub use super::facts::{diagram_facts, facts, subject};
+pub use super::facts::{Claim, diagram_facts, facts, subject};
 use crate::viewport::Picture;
 use std::fs::File;
 use std::io::{BufWriter, Write};

@@ -2,6 +2,7 @@
 
 use super::comparison::range_of;
 use crate::math::rgb::Rgb;
+use crate::math::stats::Moments;
 
 /// Light of one picture against the reference, both by how bright their colours are and without what emitters that are seen
 /// emit themselves. Differences are shares of the reference's mean over the surfaces that are seen.
@@ -15,6 +16,8 @@ pub struct PictureError {
     pub offset: f64,
     /// Root mean square difference, with the noise of the light as it is, and without that of the reference.
     pub rms: f64,
+    /// Standard error of `rms`, by how far the cells scatter.
+    pub uncertainty: f64,
     /// What the reference's noise adds to the root mean square difference.
     pub floor: f64,
 }
@@ -29,8 +32,9 @@ impl PictureError {
         if !(weight > 0.0 && mean > 0.0) {
             return None;
         }
-        let measure = Self { mean, range: 0.0, offset: 0.0, rms: 0.0, floor: 0.0 };
+        let measure = Self { mean, range: 0.0, offset: 0.0, rms: 0.0, uncertainty: 0.0, floor: 0.0 };
         let [mut offset, mut square, mut floor] = [0.0; 3];
+        let mut scatter = Moments::default();
         let mut sizes: Vec<f64> = Vec::with_capacity(values.len());
         for (&value, &coverage) in seen() {
             let share = f64::from(coverage) / weight;
@@ -38,11 +42,16 @@ impl PictureError {
             offset += share * difference;
             square += share * difference * difference;
             // Half the difference of two varies as their mean does.
-            floor += share * (f64::from(value.z / coverage) / mean).powi(2);
+            let noise = f64::from(value.z / coverage) / mean;
+            floor += share * noise * noise;
+            scatter.add(difference * difference - noise * noise);
             sizes.push(difference.abs());
         }
-        let (rms, floor) = ((square - floor).max(0.0).sqrt(), floor.sqrt());
-        Some(Self { range: range_of(&mut sizes), offset, rms, floor, ..measure })
+        let root = |square: f64| square.max(0.0).sqrt();
+        let (square, deviation) = (square - floor, scatter.standard_error());
+        let rms = root(square);
+        let uncertainty = (root(square + deviation) - rms).max(rms - root(square - deviation));
+        Some(Self { range: range_of(&mut sizes), offset, rms, uncertainty, floor: root(floor), ..measure })
     }
 
     /// (L − R)/R̄ of a cell: below 0 where the picture is too dark.

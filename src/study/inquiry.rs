@@ -26,6 +26,18 @@ pub enum Question {
     Study(Duration),
 }
 
+impl Question {
+    /// The error that is wanted, as a share of the mean irradiance.
+    pub fn error(self) -> Option<f64> {
+        if let Self::Error(error) = self { Some(error) } else { None }
+    }
+
+    /// The time that light may take.
+    pub fn time(self) -> Option<Duration> {
+        if let Self::Time(time) = self { Some(time) } else { None }
+    }
+}
+
 /// What is known of the answer.
 #[derive(Clone, Debug)]
 pub struct Answer {

@@ -147,7 +147,7 @@ fn the_error_of_a_view_is_a_picture() {
     let command = format!("render cornell-box -o error.png {SIZE} --view error-of-ray-traced --samples 32 --json");
     let report = json(&folder, &command);
     let error = &report["picture"]["error"];
-    assert_eq!(keys(error), ["floor", "mean_radiance", "offset", "rms"]);
+    assert_eq!(keys(error), ["floor", "mean_radiance", "offset", "rms", "uncertainty"]);
     // All light between surfaces is missing, which is about as much as the rest.
     assert!((-0.7..-0.3).contains(&number(&error["offset"])), "{report}");
     assert!(number(&error["rms"]) > -number(&error["offset"]) && number(&error["floor"]) < 0.2, "{report}");

@@ -8,7 +8,7 @@ use lightwell::app::action::{Action, CameraMove};
 use lightwell::app::keys::of_view;
 use lightwell::app::model::{Dialog, Look, PathPurpose};
 use lightwell::choice::Choice;
-use lightwell::solution::CameraView;
+use lightwell::solution::{CameraView, Judged};
 use lightwell::viewport::View;
 use lightwell::worker::{Command, Phase};
 
@@ -39,9 +39,30 @@ fn letters_and_digits_do_what_the_help_says() {
     for &view in View::ALL {
         let shortcut = of_view(view);
         let pressed = key(Stage::default(), shortcut.modifiers, shortcut.logical_key);
+        // One key for all errors: of what is shown.
+        let is_error = matches!(view, View::Camera(CameraView::Error(_)));
+        let view = if is_error { View::Camera(CameraView::Error(Judged::RadiositySpecular)) } else { view };
         assert_eq!(pressed, [Action::SetLook(Look { view, ..look })]);
     }
     assert_eq!(key(Stage::empty(), Modifiers::COMMAND, Key::O), [Action::BrowseForScene]);
+}
+
+#[test]
+fn one_key_leads_to_the_error_of_what_is_shown_and_back() {
+    for (view, judged, back) in [
+        (View::Smooth, Judged::RadiositySpecular, View::Camera(CameraView::RadiositySpecular)),
+        (View::Patches, Judged::Patches, View::Patches),
+        (View::Photons, Judged::PhotonRadiance, View::Camera(CameraView::PhotonRadiance)),
+        (View::Camera(CameraView::FinalGather), Judged::FinalGather, View::Camera(CameraView::FinalGather)),
+    ] {
+        let press = |view| {
+            let look = Look { view, ..Look::default() };
+            key(Stage { look, ..Stage::default() }, Modifiers::NONE, Key::X)
+        };
+        let error = View::Camera(CameraView::Error(judged));
+        assert_eq!(press(view), [Action::SetLook(Look { view: error, ..Look::default() })]);
+        assert_eq!(press(error), [Action::SetLook(Look { view: back, ..Look::default() })]);
+    }
 }
 
 #[test]

@@ -70,7 +70,8 @@ fn image(ui: &mut Ui, image: &CameraImage) {
     if let Some(Comparison::Error(error)) = image.comparison {
         let hover =
             "Root mean square difference from the reference over all that is seen, as a share of the mean light";
-        item(ui, format!("error {}", format::percent(error.rms)), hover);
+        let (rms, uncertainty) = (format::percent(error.rms), format::percent_short(error.uncertainty));
+        item(ui, format!("error {rms} ± {uncertainty}"), hover);
     }
     item(ui, format::duration(image.elapsed), "Time spent on this picture; drawing and waiting do not count");
     rays(ui, image.rays, image.elapsed);

@@ -55,7 +55,7 @@ impl Options {
             None => Light::default(),
         };
         let mut drawn = self.draw_image(&gpu, &world, &found.recipe.settings, light, found.image)?;
-        drawn.facts.extend(account.facts());
+        drawn.facts.extend(account.claim().facts());
         Ok(Drawn { account: Some(account), ..drawn })
     }
 }

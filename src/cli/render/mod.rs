@@ -53,8 +53,8 @@ pub struct Options {
     /// Outline the elements
     #[arg(long)]
     wireframe: bool,
-    /// Samples a pixel, by rays from the camera one by one and else in steps of four [default: 16, or as many as --time
-    /// allows]; where --passes asks for more passes than one, each gives a sample; for ambient-occlusion-vertices, rounds
+    /// Samples a pixel, by rays from the camera one by one and else in steps of four [default: 16, of an
+    /// error 256, or as many as --time allows]; where --passes asks for more passes than one, each gives a sample; for ambient-occlusion-vertices, rounds
     /// of rays from every vertex
     #[arg(long, value_name = "N", value_parser = values::count::<4096>)]
     samples: Option<u32>,

@@ -98,7 +98,7 @@ impl Options {
         let mut tracing = Tracing::new(world, settings, self.run.time().filter(|_| solved.is_none()));
         let shot = CameraShot { view, camera: self.camera.camera(&tracing.world), size: self.camera.size };
         let is_timed = self.run.time().is_some() && solved.is_none();
-        let samples = self.samples.or((!is_timed).then_some(SAMPLES));
+        let samples = self.samples.or((!is_timed).then_some(view.samples(SAMPLES)));
         let (image, photons) = tracing.picture(&shot, solution.clone(), samples)?;
         let light = Light { solution, photons: photons.map(Arc::new), ..Light::default() };
         self.draw_image(gpu, &tracing.world, &settings, light, image)
@@ -202,6 +202,7 @@ pub fn image_report(image: &CameraImage, exposure_ev: Option<f32>) -> Value {
         Some(Comparison::Error(error)) => {
             report["error"] = json!({
                 "rms": error.rms,
+                "uncertainty": error.uncertainty,
                 "floor": error.floor,
                 "offset": error.offset,
                 "mean_radiance": error.mean,

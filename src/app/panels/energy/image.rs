@@ -25,7 +25,8 @@ fn errors(ui: &mut Ui, error: &PictureError) {
     let hover = "Root mean square difference between the light of the view and the reference, over all that is seen, as a \
                  share of the mean light. The reference's noise is taken out, and what emitters emit themselves does not \
                  count.";
-    figure(ui, "Error", format::percent(error.rms), hover);
+    let (rms, uncertainty) = (format::percent(error.rms), format::percent_short(error.uncertainty));
+    figure(ui, "Error", format!("{rms} ± {uncertainty}"), hover);
     let hover = "Mean difference: above 0 where the picture is too bright as a whole";
     figure(ui, "Offset", format::percent(error.offset), hover);
     let hover = "The noise of the reference, which speckles this view: more samples make it less";

@@ -17,7 +17,8 @@ pub fn show(ui: &mut Ui, view: CameraView, settings: Settings, actions: &mut Vec
 }
 
 fn samples(ui: &mut Ui, mut settings: Settings, actions: &mut Vec<Action>) {
-    let hover = "Rays through every pixel. Four times as many halve the noise.";
+    let hover =
+        "Rays through every pixel. Four times as many halve the noise. Of an error sixteen times as many are taken.";
     let response = count(ui, "Samples", hover, &mut settings.image.samples, 1..=ImageSettings::MAX_SAMPLES);
     apply_when_done(&response, settings, actions);
 }
