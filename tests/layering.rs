@@ -59,7 +59,7 @@ const CRATES: &[(&str, &[&str])] = &[
     ("pollster", &["viewport"]),
     // The two faces.
     ("clap", &["cli", "main"]),
-    ("image", &["cli", "main"]),
+    ("exr", &["cli", "main"]),
     ("png", &["cli", "main"]),
     ("plotters", &["cli", "main"]),
     ("serde_json", &["study", "cli", "main", "app"]),
@@ -169,7 +169,7 @@ fn crate_rule(from: &str, name: &str) -> Option<String> {
 
 /// What the checker says of a file with one line of code, without the file's name.
 fn said(file: &str, source: &str) -> Vec<String> {
-    let dependencies = ["glam", "tobj", "image", "wgpu", "newcomer"].map(str::to_owned).into();
+    let dependencies = ["glam", "tobj", "exr", "wgpu", "newcomer"].map(str::to_owned).into();
     let cut = |line: String| line.strip_prefix(file).unwrap().to_owned();
     check(file, source, &dependencies).into_iter().map(cut).collect()
 }
@@ -218,12 +218,8 @@ fn the_checker_knows_every_kind_of_rule() {
             "fn f(x: wgpu::Texture) {}",
             "`cli` may not name the crate `wgpu`: its place is viewport, app",
         ),
-        (
-            "src/math/rgb.rs",
-            "extern crate image;",
-            "`math::rgb` may not name the crate `image`: its place is cli, main",
-        ),
-        ("src/app/mod.rs", "use crate::cli::image; use ::image::io;", "`app` may not name the crate `image`"),
+        ("src/math/rgb.rs", "extern crate exr;", "`math::rgb` may not name the crate `exr`: its place is cli, main"),
+        ("src/app/mod.rs", "use crate::cli::exr; use ::exr::io;", "`app` may not name the crate `exr`"),
         ("src/math/rgb.rs", "use newcomer::X;", "the crate `newcomer` has no place: put it in the table"),
     ] {
         let said = said(file, source);
@@ -244,9 +240,9 @@ fn the_checker_lets_pass_what_the_table_allows() {
         ),
         ("src/scene/obj/lines.rs", "mod tests { use super::super::super::Scene; use tobj::Mesh; }"),
         ("src/viewport/mod.rs", "use crate::solution::Solution; pub(crate) fn f(s: &self::targets::Targets) {}"),
-        ("src/main.rs", "use lightwell::{app, cli}; fn main() { image::f(); lightwell::worker::run::<u8>() }"),
+        ("src/main.rs", "use lightwell::{app, cli}; fn main() { exr::f(); lightwell::worker::run::<u8>() }"),
         ("src/lib.rs", "pub mod app; pub use scene::Scene; use self::app::x;"),
-        ("src/app/mod.rs", "use crate::cli::image; fn f() { image::write(); Vec::<u8>::image(); x.image::<u8>() }"),
+        ("src/app/mod.rs", "use crate::cli::exr; fn f() { exr::write(); Vec::<u8>::exr(); x.exr::<u8>() }"),
         (
             "src/math/rgb.rs",
             "// crate::app\n/* /* tobj::x */ crate::app */ /// [`crate::app`]\nconst A: &str = \"crate::app\";",

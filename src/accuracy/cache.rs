@@ -8,6 +8,7 @@ use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// To be raised whenever the same scene has another truth, or files another shape.
 const VERSION: u32 = 1;
@@ -130,11 +131,15 @@ impl Cache {
         self.folder.join(format!("runs-{:016x}-{:016x}.json", key.scene, key.points))
     }
 
-    /// Whoever reads at the same time finds the old file or the new one, never a part.
+    /// Keeps the sums, unless those of as many paths are kept. Whoever reads at the same time finds the old file or the new one,
+    /// never a part.
     ///
     /// # Errors
     /// If the folder or the file cannot be written.
     pub fn store(&self, key: &Key, paths: u64, sums: &[[Rgb64; Sensors::REPLICATES]]) -> Result<(), CacheError> {
+        if self.load(key).is_some_and(|(kept, _)| kept >= paths) {
+            return Ok(());
+        }
         let path = self.path(key);
         let numbers: Vec<u64> = sums.iter().flatten().flat_map(|sum| sum.to_array().map(f64::to_bits)).collect();
         let words = [paths, checksum_of(paths, &numbers)].into_iter().chain(numbers);
@@ -158,8 +163,10 @@ fn checksum_of(paths: u64, numbers: &[u64]) -> u64 {
 
 fn write_whole(folder: &Path, path: &Path, bytes: &[u8]) -> io::Result<()> {
     fs::create_dir_all(folder)?;
-    // Two programs may write at once.
-    let draft = path.with_extension(std::process::id().to_string());
+    // Two programs may write at once, and two threads of one.
+    static DRAFTS: AtomicU64 = AtomicU64::new(0);
+    let draft = DRAFTS.fetch_add(1, Ordering::Relaxed);
+    let draft = path.with_extension(format!("{}-{draft}", std::process::id()));
     let written = fs::File::create(&draft).and_then(|mut file| file.write_all(bytes));
     written.and_then(|()| fs::rename(&draft, path)).inspect_err(|_| {
         let _ = fs::remove_file(&draft);
@@ -184,6 +191,16 @@ mod tests {
         let (_folder, cache, key, sums) = kept();
         assert_eq!(cache.load(&key), Some((5, sums)));
         assert_eq!(cache.load(&Key { points: 3, ..key }), None);
+    }
+
+    #[test]
+    fn what_is_known_better_is_not_forgotten() {
+        let (_folder, cache, key, sums) = kept();
+        let other = vec![[Rgb64::ONE; Sensors::REPLICATES]; 3];
+        cache.store(&key, 4, &other).expect("a file");
+        assert_eq!(cache.load(&key), Some((5, sums)));
+        cache.store(&key, 6, &other).expect("a file");
+        assert_eq!(cache.load(&key), Some((6, other)));
     }
 
     #[test]

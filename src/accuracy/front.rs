@@ -47,6 +47,16 @@ pub fn slope_at_end(offers: &[Offer]) -> Option<f64> {
     slope(&offers.iter().copied().filter(|offer| offer.seconds >= from).collect::<Vec<_>>())
 }
 
+/// From which offer on errors fall no more, however long one goes on: what is left is bias. `None` unless that was watched for
+/// long enough to tell it from noise that falls, which would have lost a sixth meanwhile. Offers are in the order of time.
+pub fn level_from(offers: &[Offer]) -> Option<usize> {
+    const AS_GOOD: f64 = 1.05;
+    const WATCHED: f64 = 1.5;
+    let last = offers.last()?;
+    let since = offers.iter().rposition(|offer| offer.error > AS_GOOD * last.error).map_or(0, |worse| worse + 1);
+    (last.seconds >= WATCHED * offers[since].seconds).then_some(since)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -64,6 +74,20 @@ mod tests {
         assert!((slope_at_end(&begins_late).expect("a slope") + 0.5).abs() < 1e-12);
         assert_eq!(slope(&offers[..2]), None);
         assert_eq!(slope(&[offer(1.0, 1.0); 3]), None);
+    }
+
+    #[test]
+    fn what_falls_like_noise_never_levels_off_and_what_tends_to_a_bias_does() {
+        let seconds = || (0..12).map(|i| 0.1 * 1.4_f64.powi(i));
+        let noise: Vec<_> = seconds().map(|seconds| offer(seconds, 0.1 * seconds.powf(-0.5))).collect();
+        assert_eq!(level_from(&noise), None);
+        // The part that falls is a twentieth of the bias from here on.
+        let biased: Vec<_> = seconds().map(|seconds| offer(seconds, 0.1 + (-8.0 * seconds).exp())).collect();
+        let since = level_from(&biased).expect("a level");
+        assert!((-8.0 * biased[since].seconds).exp() <= 0.005 && (-8.0 * biased[since - 1].seconds).exp() > 0.005);
+        assert_eq!(level_from(&biased[..since + 2]), None);
+        assert_eq!(level_from(&[]), None);
+        assert_eq!(level_from(&[offer(1.0, 0.1)]), None);
     }
 
     proptest! {

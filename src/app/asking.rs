@@ -1,8 +1,9 @@
 //! Settings that suit a wish, or a study, looked for while the window goes on.
 
 use crate::accuracy::Cache;
-use crate::cli::picture::{Claim, subject};
+use crate::cli::picture::{Claim, Kept, subject};
 use crate::scene::Scene;
+use crate::solution::CameraView;
 use crate::study::{Answer, Choice, Inquiry, Question, State};
 use crate::viewport::View;
 use crate::worker::{Snapshot, TrackPoint};
@@ -55,23 +56,35 @@ impl Asking {
     /// How far off the light is that a view shows itself, and how it was chosen if the settings in force are those that were
     /// found; `None` where that was not measured.
     pub fn claim(&self, snapshot: &Snapshot, view: View) -> Option<Claim> {
-        let kind = subject(view).light().filter(|_| !matches!(view, View::Camera(_)))?;
+        let kind = subject(view).light().filter(|_| shows_light_as_it_is(view))?;
         let track = snapshot.tracks.iter().rfind(|track| track.kind == kind)?;
         let TrackPoint { seconds, error } = *track.points.last()?;
-        let answer = self.latest();
-        let chosen = answer.as_deref().and_then(|answer| match &answer.state {
-            State::Found(choice) if choice.recipe.applied_to(&track.settings) == track.settings => {
-                Some((answer.question, choice.recipe.options()))
-            }
-            _ => None,
-        });
-        let question = chosen.as_ref().map(|(question, _)| *question);
-        Some(Claim {
-            error_wanted: question.and_then(Question::error),
-            time_allowed: question.and_then(Question::time),
+        let claim = Claim {
+            error_wanted: None,
+            error_foreseen: None,
+            time_allowed: None,
             error,
             seconds,
-            options: chosen.map(|(_, options)| options),
+            kept: None,
+            options: None,
+        };
+        let answer = self.latest();
+        let Some(Answer { question, state: State::Found(choice) }) = answer.as_deref() else { return Some(claim) };
+        let found = choice.recipe.settings;
+        let is_chosen = choice.recipe.applied_to(&track.settings) == track.settings
+            && (found.seed, found.effects) == (track.settings.seed, track.settings.effects);
+        if !is_chosen {
+            return Some(claim);
+        }
+        // Of what a search takes, only the light that it found is made again here.
+        let is_in_time = question.time().is_none_or(|time| seconds <= time.as_secs_f64());
+        Some(Claim {
+            error_wanted: question.error(),
+            error_foreseen: choice.promise.error,
+            time_allowed: question.time(),
+            kept: Some(Kept::of(question.error(), &error, is_in_time)),
+            options: Some(choice.recipe.options()),
+            ..claim
         })
     }
 
@@ -93,5 +106,15 @@ impl Asking {
             Some(Answer { state: State::Found(choice), .. }) => Some(News::Found(choice.clone())),
             _ => Some(News::Over),
         }
+    }
+}
+
+/// Whether what a view shows of light is what its error was measured of: nothing but specular surfaces between.
+fn shows_light_as_it_is(view: View) -> bool {
+    match view {
+        View::Camera(view) => {
+            matches!(view, CameraView::RadiositySpecular | CameraView::PhotonIrradiance | CameraView::PhotonRadiance)
+        }
+        _ => true,
     }
 }

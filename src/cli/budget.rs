@@ -1,6 +1,6 @@
 //! Budgets: an error that is wanted, a time that is allowed, or both; and how what came of them is told.
 
-use super::picture::Claim;
+use super::picture::{Claim, Kept};
 use super::refuse;
 use super::run_options::RunOptions;
 use crate::accuracy::Error;
@@ -8,7 +8,7 @@ use crate::study::{Promise, Recipe};
 use serde_json::{Value, json};
 use std::time::{Duration, Instant};
 
-/// Times are kept where they are within this share of what was allowed.
+/// Times are kept where they are longer than what was allowed by this share at most.
 const TIME_TOLERANCE: f64 = 0.1;
 
 /// What is asked for.
@@ -44,9 +44,10 @@ impl Budget {
         )
     }
 
-    /// When a search must be over that leaves so much time for what comes after it.
+    /// When a search must be over that leaves so much time for what comes after it; `None` where there is no limit, or none that
+    /// a clock could tell.
     pub fn end(&self, for_the_rest: Duration) -> Option<Instant> {
-        self.time.and_then(|time| (self.start + time).checked_sub(for_the_rest))
+        self.time.and_then(|time| self.start.checked_add(time)?.checked_sub(for_the_rest))
     }
 }
 
@@ -70,11 +71,10 @@ impl Account {
         self.budget.start.elapsed().as_secs_f64()
     }
 
-    /// Whether the error and the time are as they were wanted.
-    fn is_kept(&self, seconds: f64) -> bool {
-        let is_near = |time: Duration| (seconds / time.as_secs_f64() - 1.0).abs() <= TIME_TOLERANCE;
-        let is_in_time = |time: Duration| is_near(time) || self.budget.error.is_some() && seconds <= time.as_secs_f64();
-        self.budget.error.is_none_or(|wanted| self.error.rms <= wanted) && self.budget.time.is_none_or(is_in_time)
+    /// Whether the error and the time are as they were wanted, after so many seconds.
+    fn kept(&self, seconds: f64) -> Kept {
+        let is_in_time = self.budget.time.is_none_or(|time| seconds <= (1.0 + TIME_TOLERANCE) * time.as_secs_f64());
+        Kept::of(self.budget.error, &self.error, is_in_time)
     }
 
     /// Errors are shares of the mean light. Where only one of error and time was asked for, the other is what was expected when
@@ -97,26 +97,28 @@ impl Account {
             chosen["settings"][knob.option().trim_start_matches("--")] = json!(setting);
         }
         report["chosen"] = chosen;
-        report["kept"] = json!(self.is_kept(seconds));
+        report["kept"] = json!(self.kept(seconds).known());
     }
 
     /// What was wanted, what came of it, and whether that is as it should be, line by line.
     pub fn text(&self) -> String {
         let seconds = self.seconds();
-        let kept = if self.is_kept(seconds) { "the promise was kept" } else { "THE PROMISE WAS NOT KEPT" };
         let claim = self.claim();
+        let kept = self.kept(seconds).sentence();
         let (promised, achieved) = (claim.promised(), claim.achieved());
         let chosen = &self.options;
         format!("  promised: {promised}\n  achieved: {achieved}, {seconds:.2} s in all: {kept}\n  chosen: {chosen}\n")
     }
 
-    /// The same for a picture; how long all of it takes is not known before it is written.
+    /// The same for a picture, as it stands before that is written.
     pub fn claim(&self) -> Claim {
         Claim {
             error_wanted: self.budget.error,
+            error_foreseen: self.promise.error,
             time_allowed: self.budget.time,
             error: self.error,
             seconds: self.solver_seconds,
+            kept: Some(self.kept(self.seconds())),
             options: Some(self.options.clone()),
         }
     }

@@ -25,6 +25,7 @@ mod tracing;
 mod values;
 
 use crate::scene::{Finding, SceneError, Severity};
+use crate::study::NotFound;
 use crate::viewport::{AdapterChoice, GpuError};
 use crate::worker::Refused;
 use crate::world::WorldError;
@@ -126,8 +127,8 @@ pub enum CliError {
     NothingPicked { at: [f32; 2] },
     #[error("only {kept} bounces of light were kept, and the light of the emitters")]
     NoSuchBounce { kept: usize },
-    #[error("no light was found in the scene within the budget")]
-    NothingFound,
+    #[error(transparent)]
+    NotFound(#[from] NotFound),
     #[error("there is nothing to draw: {0}")]
     Missing(&'static str),
     #[error("no surface is at {},{},{}, seen from where its normal points, and {reason}", .point[0], .point[1], .point[2])]

@@ -1,8 +1,12 @@
 //! Pictures as files, with what is needed to make them again.
 
 use super::CliError;
-pub use super::facts::{Claim, diagram_facts, facts, subject};
+pub use super::facts::{Claim, Kept, diagram_facts, facts, subject};
 use crate::viewport::Picture;
+use exr::image::write::WritableImage;
+use exr::image::{Image, SpecificChannels};
+use exr::math::Vec2;
+use exr::meta::attribute::{AttributeValue, Text};
 use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -12,7 +16,7 @@ use std::path::{Path, PathBuf};
 pub enum Format {
     /// 8 bits as on the screen, with text chunks.
     Png,
-    /// Linear radiance, W/(m²·sr), or linear colours, in 32-bit floats.
+    /// Linear radiance, W/(m²·sr), or linear colours, in 32-bit floats, with text attributes.
     Exr,
 }
 
@@ -36,7 +40,7 @@ pub fn save(path: &Path, picture: &Picture, facts: &[(String, String)]) -> Resul
     let format = Format::of(path).ok_or_else(|| CliError::PictureFormat { path: path.to_owned() })?;
     let bytes = match format {
         Format::Png => png(picture, facts).map_err(Into::into),
-        Format::Exr => exr(picture).map_err(Into::into),
+        Format::Exr => exr(picture, facts).map_err(Into::into),
     };
     let bytes = bytes.map_err(|source| CliError::Encode { path: path.to_owned(), source })?;
     let unfinished = unfinished_name(path);
@@ -80,11 +84,23 @@ fn png(picture: &Picture, facts: &[(String, String)]) -> Result<Vec<u8>, png::En
     Ok(bytes)
 }
 
-fn exr(picture: &Picture) -> Result<Vec<u8>, image::ImageError> {
-    let [width, height] = picture.size;
-    let pixels = picture.linear.as_flattened().to_vec();
-    let image = image::Rgba32FImage::from_raw(width, height, pixels).expect("a picture has all its pixels");
+fn exr(picture: &Picture, facts: &[(String, String)]) -> Result<Vec<u8>, exr::error::Error> {
+    let [width, height] = picture.size.map(|pixels| pixels as usize);
+    let channels = SpecificChannels::rgba(|at: Vec2<usize>| {
+        let [red, green, blue, alpha] = picture.linear[at.y() * width + at.x()];
+        (red, green, blue, alpha)
+    });
+    let mut image = Image::from_channels((width, height), channels);
+    for (key, value) in facts {
+        image.attributes.other.insert(latin(key), AttributeValue::Text(latin(value)));
+    }
     let mut bytes = std::io::Cursor::new(Vec::new());
-    image.write_to(&mut bytes, image::ImageFormat::OpenExr)?;
+    image.write().to_buffered(&mut bytes)?;
     Ok(bytes.into_inner())
+}
+
+/// The format has Latin-1 only.
+fn latin(text: &str) -> Text {
+    let bytes: Vec<u8> = text.chars().map(|letter| u8::try_from(u32::from(letter)).unwrap_or(b'?')).collect();
+    Text::from_slice_unchecked(&bytes)
 }

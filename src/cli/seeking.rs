@@ -8,7 +8,7 @@ use crate::accuracy::Cache;
 use crate::cancel::Cancel;
 use crate::errors::with_causes;
 use crate::methods::Settings;
-use crate::study::{Bench, Goal, Light, PictureGoal, Pictured, Sought, Way, picture, seek};
+use crate::study::{Bench, Goal, Light, PictureGoal, Pictured, Sought, Way, Worlds, picture, seek};
 use crate::world::World;
 use std::sync::Arc;
 use std::time::Duration;
@@ -39,10 +39,10 @@ pub fn light_for(budget: &Budget, run: &RunOptions) -> Result<Found, CliError> {
     if let Err(error) = bench.keep() {
         eprintln!("warning: {}", with_causes(&error));
     }
-    let Sought { outcome, error, promise } = sought.ok_or(CliError::NothingFound)?;
+    let Sought { outcome, error, promise } = sought?;
     let recipe = outcome.recipe;
     Ok(Found {
-        light: outcome.light.ok_or(CliError::NothingFound)?,
+        light: outcome.light.expect("light that is sought is everywhere"),
         settings: recipe.settings,
         account: Account {
             budget: *budget,
@@ -64,7 +64,7 @@ pub fn picture_for(
 ) -> Result<(Arc<World>, Pictured, Account), CliError> {
     let world = run.open()?;
     let settings = plain(run);
-    let mut bench = Bench::open(world.clone(), settings.mesh, None);
+    let mut worlds = Worlds::new(world.clone(), settings.mesh);
     let goal = PictureGoal {
         camera: camera.camera(&world),
         size: camera.size,
@@ -72,7 +72,7 @@ pub fn picture_for(
         error: budget.error,
         end: budget.end(FOR_DRAWING),
     };
-    let found = picture(&mut bench, &settings, &goal, &Cancel::default()).ok_or(CliError::NothingFound)?;
+    let found = picture(&mut worlds, &settings, &goal, &Cancel::default())?;
     let account = Account {
         budget: *budget,
         recipe: found.recipe,

@@ -36,9 +36,25 @@ impl Moments {
     }
 }
 
+/// The root of an estimate of a mean square, which may have come out below 0, and the root's standard error, by that of the
+/// square. Of a square that cannot be told from 0 the root cannot, either.
+pub fn root_of_square(square: f64, deviation: f64) -> (f64, f64) {
+    let root = |square: f64| square.max(0.0).sqrt();
+    let rms = root(square);
+    (rms, (root(square.max(0.0) + deviation) - rms).max(rms - root(square - deviation)))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_root_is_never_surer_than_its_square() {
+        let (rms, uncertainty) = root_of_square(4.0, 0.04);
+        assert!(rms == 2.0 && (uncertainty - 0.01).abs() < 1e-4);
+        assert_eq!(root_of_square(-9.0, 4.0), (0.0, 2.0));
+        assert_eq!(root_of_square(0.0, 0.0), (0.0, 0.0));
+    }
 
     #[test]
     fn moments_of_a_small_set_far_from_zero() {

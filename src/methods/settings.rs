@@ -4,7 +4,7 @@ use super::ambient_occlusion::OcclusionSettings;
 use crate::choice::Choice;
 use crate::effects::Switches;
 use crate::mesh::MeshSettings;
-use crate::solution::PathFilter;
+use crate::solution::{CameraView, PathFilter};
 
 /// What the person asks a run for.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -132,6 +132,11 @@ impl ImageSettings {
     pub const MAX_SAMPLES: u32 = 65_536;
     pub const MAX_GATHER_RAYS: u32 = 65_536;
     pub const MAX_LIGHT_RAYS: u32 = 4_096;
+
+    /// Samples of each pixel of a view.
+    pub fn samples_of(&self, view: CameraView) -> u32 {
+        view.samples(self.samples).min(Self::MAX_SAMPLES)
+    }
 }
 
 impl Default for ImageSettings {

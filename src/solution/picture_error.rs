@@ -2,7 +2,7 @@
 
 use super::comparison::range_of;
 use crate::math::rgb::Rgb;
-use crate::math::stats::Moments;
+use crate::math::stats::root_of_square;
 
 /// Light of one picture against the reference, both by how bright their colours are and without what emitters that are seen
 /// emit themselves. Differences are shares of the reference's mean over the surfaces that are seen.
@@ -16,7 +16,7 @@ pub struct PictureError {
     pub offset: f64,
     /// Root mean square difference, with the noise of the light as it is, and without that of the reference.
     pub rms: f64,
-    /// Standard error of `rms`, by how far the cells scatter.
+    /// Standard error of `rms`, by the noise of the reference.
     pub uncertainty: f64,
     /// What the reference's noise adds to the root mean square difference.
     pub floor: f64,
@@ -33,8 +33,7 @@ impl PictureError {
             return None;
         }
         let measure = Self { mean, range: 0.0, offset: 0.0, rms: 0.0, uncertainty: 0.0, floor: 0.0 };
-        let [mut offset, mut square, mut floor] = [0.0; 3];
-        let mut scatter = Moments::default();
+        let [mut offset, mut square, mut floor, mut variance] = [0.0; 4];
         let mut sizes: Vec<f64> = Vec::with_capacity(values.len());
         for (&value, &coverage) in seen() {
             let share = f64::from(coverage) / weight;
@@ -44,14 +43,12 @@ impl PictureError {
             // Half the difference of two varies as their mean does.
             let noise = f64::from(value.z / coverage) / mean;
             floor += share * noise * noise;
-            scatter.add(difference * difference - noise * noise);
+            // Of d² − z², where d = b + x, and x and z are normal with the variance v: 4 b² v + 4 v², the mean of 4 d² z².
+            variance += (2.0 * share * difference * noise).powi(2);
             sizes.push(difference.abs());
         }
-        let root = |square: f64| square.max(0.0).sqrt();
-        let (square, deviation) = (square - floor, scatter.standard_error());
-        let rms = root(square);
-        let uncertainty = (root(square + deviation) - rms).max(rms - root(square - deviation));
-        Some(Self { range: range_of(&mut sizes), offset, rms, uncertainty, floor: root(floor), ..measure })
+        let (rms, uncertainty) = root_of_square(square - floor, variance.sqrt());
+        Some(Self { range: range_of(&mut sizes), offset, rms, uncertainty, floor: floor.sqrt(), ..measure })
     }
 
     /// (L − R)/R̄ of a cell: below 0 where the picture is too dark.
@@ -63,7 +60,7 @@ impl PictureError {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::random::hash;
+    use crate::math::random::{Stream, hash};
 
     #[test]
     fn errors_are_signed_shares_of_the_mean_light() {
@@ -95,6 +92,27 @@ mod tests {
             (error.rms.powi(2) - 0.02_f64.powi(2)).abs() < 4.0 * (2.0 * 0.02 * 0.07 + 1.5 * 0.005) / 100.0,
             "{error:?}"
         );
+    }
+
+    #[test]
+    fn the_uncertainty_is_how_far_errors_scatter_from_one_reference_to_another() {
+        // Light that is 0.05 too bright, in 400 pixels, some of them half covered, against estimates of 1 ± 0.1.
+        let normal = |run, pixel, set| {
+            let mut stream = Stream::new(run, pixel, set);
+            (0..12).map(|_| stream.uniform()).sum::<f32>() - 6.0
+        };
+        let coverage: Vec<f32> = (0..400).map(|pixel| if pixel % 4 == 0 { 0.5 } else { 1.0 }).collect();
+        let (runs, mut squares) = (200, 0.0);
+        for run in 0..runs {
+            let cell = |pixel: usize| {
+                let [one, other] = [0, 1].map(|set| 1.0 + 0.1 * normal(run, pixel as u64, set));
+                coverage[pixel] * Rgb::new(1.05, (one + other) / 2.0, (one - other) / 2.0)
+            };
+            let error = PictureError::of(&(0..400).map(cell).collect::<Vec<_>>(), &coverage).expect("an error");
+            squares += ((error.rms.powi(2) - 0.05_f64.powi(2)) / (2.0 * error.rms * error.uncertainty)).powi(2);
+        }
+        let mean_square = squares / runs as f64;
+        assert!((0.7..1.4).contains(&mean_square), "{mean_square}");
     }
 
     #[test]

@@ -74,11 +74,11 @@ pub fn attempt(
     let mut trial = Trial { recipe, points: &points, start: Instant::now(), end, cancel, note };
     match recipe.way {
         Way::Radiosity => {
-            let world = bench.remeshed(&settings.mesh, cancel)?;
+            let world = bench.worlds.remeshed(&settings.mesh, cancel)?;
             trial.radiosity(&world)?;
         }
         Way::RadiosityDirect => {
-            let world = bench.remeshed(&settings.mesh, cancel)?;
+            let world = bench.worlds.remeshed(&settings.mesh, cancel)?;
             trial.view(&world)?;
         }
         Way::PhotonMap => trial.photons(bench.world())?,

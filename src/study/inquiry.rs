@@ -1,6 +1,7 @@
 //! A search for settings, or a study, on a thread of its own.
 
 use super::bench::Bench;
+use super::not_found::NotFound;
 use super::recipe::Recipe;
 use super::seek::{Goal, Promise, Sought, seek};
 use super::sweep::{Progress, Study, study};
@@ -127,10 +128,17 @@ fn answer(question: Question, world: &World, settings: &Settings, cache: Option<
                 let what = recipe.map_or("the reference".to_owned(), Recipe::label);
                 tell(format!("{done} of {of}: {what}"));
             });
-            if study.measured.is_empty() { State::Dark } else { State::Studied(Arc::new(study)) }
+            match study.measured.is_empty() {
+                true if bench.reference.truth().paths == 0 || bench.reference.truth().is_dark() => State::Dark,
+                true => State::Failed(NotFound::NoTime.to_string()),
+                false => State::Studied(Arc::new(study)),
+            }
         }
     };
-    if let Err(error) = bench.keep() {
+    // Whoever asks for something else has no more need of it, and may be writing already.
+    if !desk.cancel.is_requested()
+        && let Err(error) = bench.keep()
+    {
         log::warn!("{}", with_causes(&error));
     }
     state
@@ -138,11 +146,12 @@ fn answer(question: Question, world: &World, settings: &Settings, cache: Option<
 
 fn sought(bench: &mut Bench, settings: &Settings, goal: &Goal, cancel: &Cancel) -> State {
     match seek(bench, settings, goal, cancel) {
-        Some(Sought { outcome, error, promise }) => {
+        Ok(Sought { outcome, error, promise }) => {
             let seconds = outcome.price.seconds;
             State::Found(Arc::new(Choice { recipe: outcome.recipe, error, seconds, promise }))
         }
-        None => State::Dark,
+        Err(NotFound::Dark) => State::Dark,
+        Err(reason) => State::Failed(with_causes(&reason)),
     }
 }
 

@@ -34,19 +34,26 @@ impl Memory {
         Self { known: serde_json::from_str(&text).unwrap_or_default() }
     }
 
+    /// Keeps it beside what others have kept meanwhile.
+    ///
     /// # Errors
     /// If it cannot be written.
     pub fn store(&self, cache: &Cache, key: &Key) -> Result<(), CacheError> {
-        let newest = &self.known[self.known.len().saturating_sub(MOST)..];
+        let mut all = Self::load(cache, key);
+        self.known.iter().for_each(|known| all.take_in(*known));
+        let newest = &all.known[all.known.len().saturating_sub(MOST)..];
         cache.store_runs(key, &serde_json::to_string(newest).unwrap_or_default())
+    }
+
+    fn take_in(&mut self, known: Known) {
+        self.known.retain(|old| old.recipe != known.recipe || old.threads != known.threads);
+        self.known.push(known);
     }
 
     /// Takes a run in; of the same recipe the newest counts.
     pub fn note(&mut self, recipe: Recipe, price: &Price, error: f64) {
         let Price { seconds, all_seconds, .. } = *price;
-        let known = Known { recipe, seconds, all_seconds, error, threads: rayon::current_num_threads() };
-        self.known.retain(|old| old.recipe != recipe || old.threads != known.threads);
-        self.known.push(known);
+        self.take_in(Known { recipe, seconds, all_seconds, error, threads: rayon::current_num_threads() });
     }
 
     /// Runs on as many threads as there are now.
@@ -59,8 +66,29 @@ impl Memory {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::accuracy::Reference;
+    use crate::cancel::Cancel;
+    use crate::mesh::MeshSettings;
     use crate::methods::Settings;
+    use crate::scene::Scene;
     use crate::study::Way;
+    use crate::world::World;
+    use std::sync::Arc;
+
+    #[test]
+    fn two_that_keep_what_they_know_keep_both() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let cache = Cache::at(folder.path().to_owned());
+        let scene = Scene::open("furnace").expect("a built-in scene");
+        let world = World::build(scene, &MeshSettings::default(), &Cancel::default()).expect("a world");
+        let key = *Reference::new(Arc::new(world)).key();
+        for way in [Way::Radiosity, Way::PhotonMap] {
+            let mut memory = Memory::default();
+            memory.note(Recipe { way, settings: Settings::default() }, &Price::default(), 0.1);
+            memory.store(&cache, &key).expect("a file");
+        }
+        assert_eq!(Memory::load(&cache, &key).known.len(), 2);
+    }
 
     #[test]
     fn the_newest_of_a_recipe_counts_and_all_is_read_again() {

@@ -3,12 +3,14 @@
 //! What was measured on this scene before is tried first. Else each family of recipes is tried where it is cheap; how its errors
 //! and times change from one member to the next says which is to be tried next, and how finely.
 
-use super::attempt::{Outcome, Price, Verdict, attempt};
+use super::attempt::{CannotTry, Outcome, Price, Verdict, attempt};
 use super::bench::Bench;
 use super::memory::{Known, Memory};
+use super::not_found::NotFound;
 use super::recipe::{Recipe, Way};
 use crate::accuracy::{Error, Truth};
 use crate::cancel::Cancel;
+use crate::errors::with_causes;
 use crate::mesh::MeshSettings;
 use crate::methods::{PhotonSettings, Settings, Solver};
 use std::time::{Duration, Instant};
@@ -62,14 +64,17 @@ pub struct Sought {
     pub promise: Promise,
 }
 
-/// Looks for light that meets the goal; the best there is where the goal cannot be met. `None` where there is no light.
-pub fn seek(bench: &mut Bench, settings: &Settings, goal: &Goal, cancel: &Cancel) -> Option<Sought> {
+/// Looks for light that meets the goal; the best there is where the goal cannot be met.
+///
+/// # Errors
+/// If there is no light, or no way to compute it came to an end.
+pub fn seek(bench: &mut Bench, settings: &Settings, goal: &Goal, cancel: &Cancel) -> Result<Sought, NotFound> {
     let start = Instant::now();
     let end = goal.end.unwrap_or(start + LONGEST);
-    let mut search = Search { settings, goal, end, cancel, best: None };
+    let mut search = Search { settings, goal, end, cancel, best: None, refusal: None };
     search.look_at_truth(bench, start);
     if bench.reference.truth().is_dark() {
-        return None;
+        return Err(NotFound::Dark);
     }
     if let Some(known) = search.known(&bench.memory) {
         search.follow(bench, &known.recipe, Promise { error: Some(known.error), seconds: Some(known.seconds) });
@@ -100,6 +105,8 @@ struct Search<'a> {
     cancel: &'a Cancel,
     /// With its error, as it was measured then.
     best: Option<(Outcome, Promise, f64)>,
+    /// Why the last recipe that could not be followed could not.
+    refusal: Option<CannotTry>,
 }
 
 impl Search<'_> {
@@ -199,7 +206,8 @@ impl Search<'_> {
             if is_met { Verdict::Break(()) } else { Verdict::Continue(()) }
         });
         if let Err(reason) = followed {
-            log::info!("{}: {reason}", recipe.options());
+            log::info!("{}: {}", recipe.options(), with_causes(&reason));
+            self.refusal = Some(reason);
         }
         let (outcome, error) = last?;
         bench.memory.note(outcome.recipe, &outcome.price, error.rms);
@@ -213,10 +221,10 @@ impl Search<'_> {
         Some(tried)
     }
 
-    fn sought(self, bench: &Bench) -> Option<Sought> {
-        let (outcome, promise, _) = self.best?;
-        let error = bench.reference.truth().error(&outcome.found)?;
-        Some(Sought { outcome, error, promise })
+    fn sought(self, bench: &Bench) -> Result<Sought, NotFound> {
+        let Some((outcome, promise, _)) = self.best else { return Err(NotFound::after(self.refusal)) };
+        let error = bench.reference.truth().error(&outcome.found).ok_or(NotFound::Dark)?;
+        Ok(Sought { outcome, error, promise })
     }
 }
 

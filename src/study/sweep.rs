@@ -4,7 +4,7 @@ use super::attempt::{Outcome, Price, Verdict, attempt};
 use super::bench::Bench;
 use super::knob::{Gain, gains};
 use super::recipe::{Recipe, Way};
-use crate::accuracy::{Error, Offer, Truth, front, slope_at_end};
+use crate::accuracy::{Error, Offer, Truth, front, level_from, slope_at_end};
 use crate::cancel::Cancel;
 use crate::choice::Choice;
 use crate::errors::with_causes;
@@ -41,6 +41,8 @@ pub struct Study {
     pub front: Vec<usize>,
     /// For each way whose errors fall with its samples or passes, with which exponent over time.
     pub slopes: Vec<(Way, f64)>,
+    /// Of each run of radiosity whose error levelled off: the first outcome that was as good as its last.
+    pub levels: Vec<usize>,
     pub gains: Vec<Gain>,
     pub truth: Arc<Truth>,
     /// Recipes that could not be followed, with the reason.
@@ -119,6 +121,7 @@ fn judged(outcomes: &[(usize, Outcome)], truth: &Arc<Truth>) -> Study {
     Study {
         front: front(&offers),
         slopes: Way::ALL.iter().filter_map(|&way| Some((way, slope_of(way, &measured)?))).collect(),
+        levels: levels(&measured),
         gains: gains(&finished),
         truth: truth.clone(),
         measured,
@@ -150,6 +153,20 @@ fn slope_of(way: Way, measured: &[Measured]) -> Option<f64> {
     let runs = measured.iter().map(|measured| measured.run).max()? + 1;
     let longest = (0..runs).map(of_run).max_by_key(Vec::len)?;
     slope_at_end(&longest)
+}
+
+/// Of runs of radiosity, which tend to the bias of their mesh and of their form factors.
+fn levels(measured: &[Measured]) -> Vec<usize> {
+    let mut levels = Vec::new();
+    let mut start = 0;
+    for run in measured.chunk_by(|one, next| one.run == next.run) {
+        let offers: Vec<Offer> = run.iter().map(Measured::offer).collect();
+        if run[0].recipe.way == Way::Radiosity {
+            levels.extend(level_from(&offers).map(|since| start + since));
+        }
+        start += run.len();
+    }
+    levels
 }
 
 /// What is tried: around the defaults, one knob at a time, the cheap before the dear, and paths last.

@@ -28,6 +28,16 @@ pub fn texts(folder: &TempDir, name: &str) -> BTreeMap<String, String> {
     plain.chain(other).collect()
 }
 
+/// The same of an EXR.
+pub fn attributes(folder: &TempDir, name: &str) -> BTreeMap<String, String> {
+    let meta = exr::meta::MetaData::read_from_file(folder.path().join(name), false).expect("a picture");
+    let texts = meta.headers[0].own_attributes.other.iter().filter_map(|(name, value)| match value {
+        exr::meta::attribute::AttributeValue::Text(text) => Some((name.to_string(), text.to_string())),
+        _ => None,
+    });
+    texts.collect()
+}
+
 /// Every pixel of an EXR file.
 pub fn radiances(folder: &TempDir, name: &str) -> Vec<[f32; 4]> {
     let image = ImageReader::open(folder.path().join(name)).expect("a file").decode().expect("a picture");

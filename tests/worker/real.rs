@@ -52,9 +52,10 @@ fn every_view_of_a_scene_is_made_from_the_same_light() {
         look(&worker, Subject::Camera(view), 0, [64, 48]);
         let end = wait_for(&worker, "finished", |now| image_of(now, view).is_some_and(|image| image.is_complete));
         let image = image_of(&end, view).expect("an image");
-        assert_eq!((image.samples, image.resolution, image.size), (2, [64, 48], [64, 48]));
-        // Where there are no caustics there is still the lamp.
-        assert!(brightness(image) > 0.0, "{view:?}");
+        assert_eq!((image.samples, image.resolution, image.size), (view.samples(2), [64, 48], [64, 48]));
+        // Where there are no caustics there is still the lamp. A difference may be too dark on the whole.
+        let is_seen = if view.is_comparison() { brightness(image) != 0.0 } else { brightness(image) > 0.0 };
+        assert!(is_seen, "{view:?}");
     }
     let end = worker.latest();
     assert!(Arc::ptr_eq(end.photons.as_ref().expect("photons"), photons) && steps(&end) == 30);

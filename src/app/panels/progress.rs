@@ -39,7 +39,7 @@ fn progress(model: &Model, palette: Palette) -> Progress {
     }
     let image = model.image.filter(|_| !model.is_running() || model.light().is_none());
     if let Some(image) = image {
-        return of_image(image, image.view.samples(model.settings.image.samples), palette);
+        return of_image(image, model.settings.image.samples_of(image.view), palette);
     }
     let of_light = match model.light() {
         Some(LightKind::Radiosity) => model.solution.map(|solution| of_radiosity(model, solution, palette)),

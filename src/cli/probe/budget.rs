@@ -9,9 +9,7 @@ use crate::cancel::Cancel;
 use crate::choice::Choice;
 use crate::cli::CliError;
 use crate::cli::budget::{Account, Budget};
-use crate::math::rgb::Rgb;
-use crate::methods::path_trace::Sensors;
-use crate::study::{Promise, Recipe, Way};
+use crate::study::{NotFound, Promise, Recipe, Way};
 use crate::world::World;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -20,6 +18,10 @@ use std::time::{Duration, Instant};
 const FOR_TELLING: Duration = Duration::from_secs(2);
 /// When paths towards an error are given up.
 const LONGEST: Duration = Duration::from_secs(300);
+/// Paths from each point before their scatter is believed: light that few of them meet may not have been met at all before.
+const LEAST_PATHS: u64 = 256;
+/// Paths from each point none of which has met light where there is none.
+const DARK: u64 = 4096;
 
 impl Options {
     /// What is asked for instead of a method, if anything is. Ends the program, as any other wrong command line does, where
@@ -51,19 +53,22 @@ pub fn measure(
     let mut meters = sensors(&settings, world, points);
     let for_telling = FOR_TELLING.mul_f64(points.len() as f64 / f64::from(MOST_POINTS));
     let end = budget.end(for_telling).unwrap_or(start + LONGEST);
-    let mut promise = Promise { error: None, seconds: None };
+    let mut promise = None;
     loop {
         let before = start.elapsed();
         meters.step(1, &Cancel::default());
-        let Some(error) = error_of(&meters) else { return Err(CliError::NothingFound) };
         let elapsed = start.elapsed();
-        if promise.error.is_none() {
-            promise =
-                foresee(budget, &error, elapsed.as_secs_f64(), end.saturating_duration_since(start).as_secs_f64());
+        let error = Error::of_noise(&meters.irradiance());
+        if let (None, Some(error)) = (&promise, &error) {
+            let allowed = end.saturating_duration_since(start).as_secs_f64();
+            promise = Some(foresee(budget, error, elapsed.as_secs_f64(), allowed));
         }
-        let is_met = budget.error.is_some_and(|wanted| error.rms + error.uncertainty <= wanted);
+        let is_enough = |wanted| error.is_some_and(|error| error.rms + error.uncertainty <= wanted);
+        let is_met = meters.paths() >= LEAST_PATHS && budget.error.is_some_and(is_enough);
+        let is_dark = error.is_none() && meters.paths() >= DARK;
         let last = elapsed.saturating_sub(before);
-        if is_met || Instant::now() + last > end {
+        if is_met || is_dark || Instant::now() + last > end {
+            let (Some(error), Some(promise)) = (error, promise) else { return Err(NotFound::Dark.into()) };
             let mut recipe = Recipe { way: Way::Reference, settings };
             recipe.settings.image.samples = u32::try_from(meters.paths()).unwrap_or(u32::MAX);
             let account = Account {
@@ -77,16 +82,6 @@ pub fn measure(
             return Ok((read(&meters, points), account));
         }
     }
-}
-
-/// The standard error of all points and channels, as a share of their mean; `None` without light.
-fn error_of(meters: &Sensors) -> Option<Error> {
-    let estimates = meters.irradiance();
-    let nothing = vec![Rgb::ZERO; estimates.len()];
-    let floor = Error::of(&nothing, &estimates)?.floor;
-    // Of a standard deviation by so many independent estimates of each point.
-    let uncertainty = floor / (2.0 * (Sensors::REPLICATES - 1) as f64 * estimates.len() as f64).sqrt();
-    Some(Error { rms: floor, uncertainty, floor, noise: Some(floor) })
 }
 
 /// What the first paths let one expect: errors fall with the root of the time.

@@ -12,6 +12,7 @@ use super::occlusion_options::OcclusionOptions;
 use super::photon_options::PhotonOptions;
 use super::run_options::RunOptions;
 use super::{CliError, picture, refuse, values};
+use crate::methods::ImageSettings;
 use crate::methods::{OcclusionSettings, Settings};
 use crate::viewport::{Picture, View};
 use serde_json::{Value, json};
@@ -56,7 +57,7 @@ pub struct Options {
     /// Samples a pixel, by rays from the camera one by one and else in steps of four [default: 16, of an
     /// error 256, or as many as --time allows]; where --passes asks for more passes than one, each gives a sample; for ambient-occlusion-vertices, rounds
     /// of rays from every vertex
-    #[arg(long, value_name = "N", value_parser = values::count::<4096>)]
+    #[arg(long, value_name = "N", value_parser = values::count::<{ ImageSettings::MAX_SAMPLES }>)]
     samples: Option<u32>,
     #[command(flatten)]
     photons: PhotonOptions,

@@ -101,6 +101,7 @@ fn json_of(scene: &str, budget: f64, study: &Study) -> Value {
                 "error_uncertainty": measured.error.uncertainty,
                 "noise": measured.error.noise,
                 "on_front": study.front.contains(&index),
+                "levels_off": study.levels.contains(&index),
             })
         })
         .collect();

@@ -50,6 +50,7 @@ pub fn markdown(scene: &str, budget: f64, study: &Study) -> String {
     for (way, slope) in &study.slopes {
         text += &format!("| {} | {} |\n", way.label(), signed(*slope));
     }
+    text += &levels(study);
     text += "\n## What each knob buys\n\nAll other settings are as they were.\n\n";
     text += "| method | turn | time | error |\n|---|---|---:|---:|\n";
     for gain in &study.gains {
@@ -61,6 +62,28 @@ pub fn markdown(scene: &str, budget: f64, study: &Study) -> String {
     }
     for (recipe, reason) in &study.refused {
         text += &format!("\n`{}` was refused: {reason}\n", recipe.options());
+    }
+    text
+}
+
+/// Where solving any longer bought nothing.
+fn levels(study: &Study) -> String {
+    if study.levels.is_empty() {
+        return String::new();
+    }
+    let mut text =
+        "\n## Where errors level off\n\nRadiosity tends to the bias of its elements and form factors: from then on, \
+                    solving any longer bought nothing.\n\n| error | after seconds | of | how |\n|---:|---:|---:|---|\n"
+            .to_owned();
+    for since in study.levels.iter().map(|&index| &study.measured[index]) {
+        let Some(last) = study.measured.iter().rfind(|measured| measured.run == since.run) else { continue };
+        text += &format!(
+            "| {} | {} | {} | `{}` |\n",
+            percent(last.error.rms),
+            seconds(since.price.seconds),
+            seconds(last.price.seconds),
+            last.recipe.options(),
+        );
     }
     text
 }

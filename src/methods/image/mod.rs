@@ -19,6 +19,7 @@ mod shutter;
 
 use crate::camera::Camera;
 use crate::cancel::Cancel;
+use crate::effects::Switches;
 use crate::methods::path_trace::PathTracer;
 use crate::methods::photon_map::PhotonMaps;
 use crate::methods::transport::{Media, Transport};
@@ -101,23 +102,27 @@ impl Sources {
         Some(Arc::new(AmbientLook::new(self.transport.clone(), parts, settings)))
     }
 
-    /// Of all paths, whichever the view itself is asked for.
+    /// Of all paths, whichever the view itself is asked for, and of all effects that the scene calls for: leaving one out is a
+    /// part of the error.
     fn error(&self, judged: Judged, settings: &Settings) -> Option<Arc<dyn Look>> {
         let settings =
             Settings { image: ImageSettings { filter: PathFilter::default(), ..settings.image }, ..*settings };
         let transport = self.transport.clone();
+        let truth = if settings.effects == Switches::default() {
+            transport.clone()
+        } else {
+            Arc::new(Transport::new(transport.world.clone(), Switches::default()))
+        };
         Some(match judged {
             Judged::DiffuseAmbient => {
-                let look = AmbientLook::new(transport.clone(), Parts::DiffuseAmbient, &settings);
-                Arc::new(ErrorLook::new(transport, look))
+                Arc::new(ErrorLook::new(truth, AmbientLook::new(transport, Parts::DiffuseAmbient, &settings)))
             }
             Judged::Patches => {
                 let light = PatchLight { transport: transport.clone(), solution: self.radiosity.clone()? };
                 let matcher = PathFilter::default().matcher();
-                let look = EyePath { transport: transport.clone(), light: Box::new(light), matcher };
-                Arc::new(ErrorLook::new(transport, look))
+                Arc::new(ErrorLook::new(truth, EyePath { transport, light: Box::new(light), matcher }))
             }
-            _ => Arc::new(ErrorLook::new(transport, self.eye_path(judged.view(), &settings)?)),
+            _ => Arc::new(ErrorLook::new(truth, self.eye_path(judged.view(), &settings)?)),
         })
     }
 

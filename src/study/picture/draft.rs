@@ -1,13 +1,15 @@
 //! A way to make a picture, tried at some of its pixels.
 
 use super::PictureGoal;
-use crate::accuracy::{Error, PixelTruth};
+use crate::accuracy::{Error, Parts, PixelTruth};
 use crate::cancel::Cancel;
-use crate::methods::ImageSettings;
+use crate::math::random::hash;
 use crate::methods::image::Pixels;
-use crate::study::bench::Bench;
+use crate::methods::{ImageSettings, Settings};
+use crate::study::attempt::CannotTry;
 use crate::study::lit::{Lit, light_of};
 use crate::study::recipe::{Recipe, Way};
+use crate::study::worlds::Worlds;
 use std::fmt;
 use std::time::Instant;
 
@@ -15,58 +17,79 @@ use std::time::Instant;
 pub struct Draft {
     pub recipe: Recipe,
     pub lit: Lit,
-    /// From the cutting of the mesh on.
+    /// Of the solver.
     pub light_seconds: f64,
+    /// As they are in the picture.
     pixels: Pixels,
-    /// For all samples of the pixels so far.
+    /// The same with other random numbers: what both are off by is bias.
+    others: Pixels,
+    /// For all samples of the pixels so far, without the others.
     pixel_seconds: f64,
     /// So many pixels of the picture stand behind each of these.
     scale: f64,
     /// Samples and the error after them; each time twice as many.
     errors: Vec<(u32, Error)>,
+    /// The squares of the bias and of the noise of one sample.
+    parts: Parts,
 }
 
 impl Draft {
-    /// Finds the light of the recipe, before the first sample; `None` if there is not enough time or memory.
+    /// Finds the light of the recipe, before the first sample; `None` if there is not enough time.
+    ///
+    /// # Errors
+    /// If the scene cannot be cut so finely, or there is not enough memory.
     pub fn begin(
-        bench: &mut Bench,
+        worlds: &mut Worlds,
         recipe: &Recipe,
         goal: &PictureGoal,
         truth: &PixelTruth,
         end: Instant,
         cancel: &Cancel,
-    ) -> Option<Self> {
-        let start = Instant::now();
+    ) -> Result<Option<Self>, CannotTry> {
         let view = recipe.way.picture();
-        let opened = if view.needs_radiosity() {
-            bench.remeshed(&recipe.settings.mesh, cancel)
+        let world = if view.needs_radiosity() {
+            worlds.remeshed(&recipe.settings.mesh, cancel)?
         } else {
-            Ok(bench.world().clone())
+            worlds.first().clone()
         };
-        let lit = opened.map_err(|reason| log::info!("{}: {reason}", recipe.options())).ok()?;
-        let lit = light_of(&lit, view, &recipe.settings, end, cancel);
-        let lit = lit.map_err(|reason| log::info!("{}: {reason}", recipe.options())).ok()??;
-        let places = truth.places().clone();
+        let start = Instant::now();
+        let Some(lit) = light_of(&world, view, &recipe.settings, end, cancel)? else { return Ok(None) };
+        let light_seconds = start.elapsed().as_secs_f64();
+        let places = truth.places();
         let scale = goal.size.map(f64::from).iter().product::<f64>() / places.len().max(1) as f64;
-        let pixels = Pixels::new(&lit.sources, view, goal.camera, goal.size, places, &recipe.settings)?;
-        Some(Self {
+        let pixels = |seed| {
+            let settings = Settings { seed, ..recipe.settings };
+            Pixels::new(&lit.sources, view, goal.camera, goal.size, places.clone(), &settings)
+        };
+        let seed = recipe.settings.seed;
+        let both = pixels(seed).zip(pixels(hash(seed, 1, 0)));
+        Ok(both.map(|(pixels, others)| Self {
             recipe: *recipe,
             lit,
-            light_seconds: start.elapsed().as_secs_f64(),
+            light_seconds,
             pixels,
+            others,
             pixel_seconds: 0.0,
             scale,
             errors: Vec::new(),
-        })
+            parts: Parts::default(),
+        }))
     }
 
     /// Takes so many samples, or as many as that much time allows, but two at least.
     pub fn look(&mut self, truth: &PixelTruth, samples: u32, seconds: f64, cancel: &Cancel) {
-        while self.samples() < samples && (self.samples() < 2 || self.pixel_seconds < seconds) && self.step(cancel) {
+        let start = Instant::now();
+        let has_time = |draft: &Self| draft.samples() < 2 || start.elapsed().as_secs_f64() < seconds;
+        while self.samples() < samples && has_time(self) && self.step(cancel) && self.others.step(cancel) {
             if self.samples().is_power_of_two() {
                 self.measure(truth);
             }
         }
+        let count = f64::from(self.samples());
+        let parts = truth.parts(&self.pixels.radiance(), &self.others.radiance()).unwrap_or_default();
+        // Path tracing has no bias.
+        let bias = if self.recipe.way == Way::Reference { 0.0 } else { parts.bias.max(0.0) };
+        self.parts = Parts { bias, noise: count * parts.noise };
     }
 
     /// After how many samples the error is surely as small, taking them if they were not taken yet; `None` where that takes
@@ -134,61 +157,34 @@ impl Draft {
         self.scale * self.pixel_seconds / f64::from(self.samples().max(1))
     }
 
-    /// The squares of the bias and of the noise of one sample: what the last error and an earlier one, of a quarter of the
-    /// samples, come from. Path tracing has no bias.
-    fn parts(&self) -> (f64, f64) {
-        let Some((samples, Error { rms: last, .. })) = self.errors.last() else { return (f64::MAX, 0.0) };
-        let all_noise = (0.0, last * last * f64::from(*samples));
-        if self.recipe.way == Way::Reference {
-            return all_noise;
-        }
-        let earlier = self.errors.iter().rev().find(|(before, _)| 4 * before <= *samples).or(self.errors.first());
-        let Some((before, Error { rms: first, .. })) = earlier.filter(|(before, _)| before < samples) else {
-            return all_noise;
-        };
-        let [samples, before] = [*samples, *before].map(f64::from);
-        let noise = (first * first - last * last) / (1.0 / before - 1.0 / samples);
-        let noise = noise.clamp(0.0, last * last * samples);
-        (last * last - noise / samples, noise)
-    }
-
     /// The error that more samples would not take away.
     pub fn bias(&self) -> f64 {
-        self.parts().0.sqrt()
+        self.parts.bias.sqrt()
     }
 
-    /// The error of a picture that may take so long.
-    pub fn error_in(&self, seconds: f64) -> f64 {
-        let samples = (seconds / self.seconds_a_sample()).max(1.0);
-        let (bias, noise) = self.parts();
-        (bias + noise / samples).sqrt()
+    /// The error of a picture that may take so long, with light whose bias is `share` of its own. Noise of well-spread samples
+    /// falls a little faster.
+    pub fn error_in(&self, seconds: f64, share: f64) -> f64 {
+        let samples = (seconds / self.seconds_a_sample()).floor().max(1.0);
+        (share * share * self.parts.bias + self.parts.noise / samples).sqrt()
     }
 
-    /// The same with light whose bias is another share of its own.
-    pub fn error_with(&self, share: f64, seconds: f64) -> f64 {
-        let samples = (seconds / self.seconds_a_sample()).max(1.0);
-        let (bias, noise) = self.parts();
-        (share * share * bias + noise / samples).sqrt()
-    }
-
-    /// How long a picture of this error takes; `None` where its bias alone is larger.
-    pub fn seconds_to(&self, error: f64) -> Option<f64> {
-        let (bias, noise) = self.parts();
-        let noise_left = error * error - bias;
-        (noise_left > 0.0).then(|| self.seconds_a_sample() * (noise / noise_left).ceil().max(1.0))
+    /// How long a picture of this error takes, with light whose bias is `share` of its own; `None` where that alone is larger.
+    pub fn seconds_to(&self, error: f64, share: f64) -> Option<f64> {
+        let noise_left = error * error - share * share * self.parts.bias;
+        (noise_left > 0.0).then(|| self.seconds_a_sample() * (self.parts.noise / noise_left).ceil().max(1.0))
     }
 }
 
 impl fmt::Display for Draft {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (bias, noise) = self.parts();
         write!(
             f,
             "light in {:.2} s, {:.4} s a sample, bias {:.4}, noise {:.4}: {}",
             self.light_seconds,
             self.seconds_a_sample(),
-            bias.sqrt(),
-            noise.sqrt(),
+            self.bias(),
+            self.parts.noise.sqrt(),
             self.recipe.options(),
         )
     }

@@ -1,10 +1,9 @@
 //! Ways to make a picture, each with light that can be made finer.
 
-use super::draft::Draft;
 use crate::mesh::MeshSettings;
 use crate::methods::{ImageSettings, PhotonSettings, Settings, Solver};
-use crate::study::bench::Bench;
 use crate::study::recipe::{Recipe, Way};
+use crate::world::World;
 
 /// Longest edge of an element to begin with, in those of the automatic mesh.
 const COARSE: f32 = 4.0;
@@ -32,9 +31,9 @@ pub struct Line {
 }
 
 /// All ways, or one of them.
-pub fn of(bench: &Bench, settings: &Settings, way: Option<Way>) -> Vec<Line> {
+pub fn of(world: &World, settings: &Settings, way: Option<Way>) -> Vec<Line> {
     let image = ImageSettings { gather_rays: GATHER_RAYS, light_rays: LIGHT_RAYS, ..settings.image };
-    let size = settings.mesh.element_size.unwrap_or(COARSE * bench.world().element_size);
+    let size = settings.mesh.element_size.unwrap_or(COARSE * world.element_size);
     let mesh = MeshSettings { element_size: Some(size), ..settings.mesh };
     let radiosity = Settings { mesh, unshot_limit: UNSHOT, image, ..*settings };
     let photons = PhotonSettings { count: PHOTONS, caustic_count: PHOTONS, ..settings.photons };
@@ -98,7 +97,7 @@ impl Line {
         }
         if let Some((seconds_before, bias_before)) = self.last {
             self.growth = (seconds / seconds_before).clamp(2.0, 16.0);
-            self.decay = (bias / bias_before).clamp(0.2, 1.0);
+            self.decay = if bias < bias_before { (bias / bias_before).max(0.2) } else { 1.0 };
         }
         self.last = Some((seconds, bias));
         self.draft = Some(draft);
@@ -116,8 +115,8 @@ impl Line {
         self.last.map_or(0.0, |(seconds, _)| seconds * self.growth.powi(turns))
     }
 
-    /// The error that may be expected of it, in a picture that may take so long.
-    pub fn error(&self, draft: &Draft, turns: i32, seconds: f64) -> f64 {
-        draft.error_with(self.decay.powi(turns), seconds)
+    /// What share of the bias that may be expected to leave.
+    pub fn bias_left(&self, turns: i32) -> f64 {
+        self.decay.powi(turns)
     }
 }

@@ -4,18 +4,23 @@
 mod draft;
 mod lines;
 
-use super::bench::Bench;
+use super::attempt::CannotTry;
 use super::lit::Light;
+use super::not_found::NotFound;
 use super::recipe::{Recipe, Way};
 use super::seek::Promise;
+use super::worlds::Worlds;
 use crate::accuracy::{Error, PixelTruth};
 use crate::camera::Camera;
 use crate::cancel::Cancel;
+use crate::errors::with_causes;
 use crate::methods::image::ImageRun;
 use crate::methods::{ImageSettings, Settings, Step};
 use crate::solution::CameraImage;
+use crate::world::World;
 use draft::Draft;
 use lines::Line;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// An error counts as reached when it is below this share of what is wanted: it is measured in a thousand pixels, and meant in
@@ -28,7 +33,10 @@ const FEW_PIXELS: usize = 256;
 const FIRST_TRUTH: f64 = 0.12;
 /// The truth may be off by this share of what is wanted: over a thousand pixels that comes to a few percent of an error.
 const FLOOR: f64 = 0.7;
-/// Share of an error by which it may be uncertain when it is told at last.
+/// Sets of pixels: those that say which way is taken, and how far, and those that say at last how far off the picture is.
+const CHOOSING: u32 = 0;
+const JUDGING: u32 = 1;
+/// Share of an error by which it may be uncertain, for noise of the truth, when it is told at last.
 const SURE: f64 = 0.05;
 /// Share of the time left that finding a way's light may take, and the first of it, of which nothing is known.
 const LIGHT: f64 = 0.45;
@@ -74,31 +82,36 @@ pub struct Pictured {
     pub seconds: f64,
 }
 
-/// Makes the cheapest picture that is as accurate as is wanted, or the most accurate in the time allowed. `None` where nothing
-/// but emitters is seen, or no light.
-pub fn picture(bench: &mut Bench, settings: &Settings, goal: &PictureGoal, cancel: &Cancel) -> Option<Pictured> {
+/// Makes the cheapest picture that is as accurate as is wanted, or the most accurate in the time allowed.
+///
+/// # Errors
+/// If nothing but background is seen, or no light, or no way came to an end.
+pub fn picture(
+    worlds: &mut Worlds,
+    settings: &Settings,
+    goal: &PictureGoal,
+    cancel: &Cancel,
+) -> Result<Pictured, NotFound> {
     let start = Instant::now();
     let end = goal.end.unwrap_or(start + LONGEST);
     let pixels = if goal.error.is_some() { PIXELS } else { FEW_PIXELS };
-    let truth = PixelTruth::new(bench.world(), goal.camera, goal.size, pixels);
-    let mut search = Search { goal, truth, end, cancel, drafts: Vec::new() };
+    let truth = PixelTruth::new(worlds.first(), goal.camera, goal.size, pixels, CHOOSING);
+    let mut search = Search { goal, truth, end, cancel, drafts: Vec::new(), refusal: None };
     search.look_at_truth(start);
     if search.truth.is_dark() {
-        return None;
+        return Err(NotFound::Dark);
     }
-    search.try_ways(bench, settings);
-    match goal.error {
-        Some(wanted) => search.picture_of_error(wanted),
-        None => search.picture_of_time(),
-    }
+    search.try_ways(worlds, settings);
+    let chosen = goal.error.and_then(|wanted| search.chosen_for_error(wanted)).or_else(|| search.chosen_for_time());
+    let Some(chosen) = chosen else { return Err(NotFound::after(search.refusal)) };
+    search.expose(worlds.first(), chosen)
 }
 
-/// The draft that came nearest to an error.
-struct Best {
+/// A draft that is to become a picture, with so many samples if there is time for them.
+struct Chosen {
     draft: Draft,
     samples: u32,
     promise: Promise,
-    error: f64,
 }
 
 /// The state of a search.
@@ -109,6 +122,8 @@ struct Search<'a> {
     end: Instant,
     cancel: &'a Cancel,
     drafts: Vec<Draft>,
+    /// Why the last way that could not be gone could not.
+    refusal: Option<CannotTry>,
 }
 
 impl Search<'_> {
@@ -128,20 +143,25 @@ impl Search<'_> {
     }
 
     /// Tries all ways that may be worth it, each with finer and finer light.
-    fn try_ways(&mut self, bench: &mut Bench, settings: &Settings) {
-        let mut lines = lines::of(bench, settings, self.goal.way);
+    fn try_ways(&mut self, worlds: &mut Worlds, settings: &Settings) {
+        let mut lines = lines::of(worlds.first(), settings, self.goal.way);
         while let Some(line) = self.next(&lines) {
             let recipe = lines[line].recipe();
             let light_end = Instant::now() + Duration::from_secs_f64(self.light_seconds(&lines[line]));
-            match Draft::begin(bench, &recipe, self.goal, &self.truth, light_end, self.cancel) {
-                Some(mut draft) => {
+            match Draft::begin(worlds, &recipe, self.goal, &self.truth, light_end, self.cancel) {
+                Ok(Some(mut draft)) => {
                     draft.look(&self.truth, SAMPLES, TRIAL * self.seconds_left(), self.cancel);
                     log::info!("{draft}");
                     lines[line].note(draft.light_seconds, draft.bias(), self.drafts.len());
                     self.drafts.push(draft);
                     lines::keep_the_faster(&mut lines);
                 }
-                None => lines[line].end(),
+                Ok(None) => lines[line].end(),
+                Err(reason) => {
+                    log::info!("{}: {}", recipe.options(), with_causes(&reason));
+                    self.refusal = Some(reason);
+                    lines[line].end();
+                }
             }
             if self.cancel.is_requested() || Instant::now() >= self.end {
                 return;
@@ -162,7 +182,7 @@ impl Search<'_> {
 
     /// How long the cheapest picture of an error takes that is known by now.
     fn least_seconds(&self, wanted: f64) -> f64 {
-        self.drafts.iter().filter_map(|draft| draft.seconds_to(SAFE * wanted)).fold(f64::MAX, f64::min)
+        self.drafts.iter().filter_map(|draft| draft.seconds_to(SAFE * wanted, 1.0)).fold(f64::MAX, f64::min)
     }
 
     /// The way to be tried next, if any is worth it.
@@ -175,85 +195,109 @@ impl Search<'_> {
     fn is_worth_refining(&self, line: &Line) -> bool {
         let Some(draft) = line.draft.map(|draft| &self.drafts[draft]) else { return false };
         match self.goal.error {
-            // It is not good enough, and a better one takes less time than what is good enough.
+            // With it, a picture that is good enough takes less time, or there is none yet.
             Some(wanted) => {
-                let best =
-                    self.drafts.iter().filter_map(|draft| draft.seconds_to(SAFE * wanted)).fold(f64::MAX, f64::min);
-                draft.seconds_to(SAFE * wanted).is_none_or(|seconds| seconds > best) && line.light_seconds(1) < best
+                let best = self.least_seconds(wanted);
+                let is_affordable = |turns: &i32| line.light_seconds(*turns) < best;
+                let seconds = |turns| {
+                    let exposure = draft.seconds_to(SAFE * wanted, line.bias_left(turns));
+                    exposure.map_or(f64::MAX, |exposure| line.light_seconds(turns) + exposure)
+                };
+                best == f64::MAX || (1..).take_while(is_affordable).take(MOST_TURNS).map(seconds).any(|one| one < best)
             }
             None => {
                 let left = self.seconds_left();
-                let best = self.drafts.iter().map(|draft| draft.error_in(left)).fold(f64::MAX, f64::min);
+                let best = self.drafts.iter().map(|draft| draft.error_in(left, 1.0)).fold(f64::MAX, f64::min);
                 let is_affordable = |turns: &i32| line.light_seconds(*turns) <= LIGHT * left;
-                let error = |turns| line.error(draft, turns, left - line.light_seconds(turns));
+                let error = |turns| draft.error_in(left - line.light_seconds(turns), line.bias_left(turns));
                 (1..).take_while(is_affordable).take(MOST_TURNS).map(error).any(|error| error < LEVEL * best)
             }
         }
     }
 
     /// The best that there is time for.
-    fn picture_of_time(&mut self) -> Option<Pictured> {
-        let left = self.seconds_left();
-        let error = |draft: &Draft| draft.error_in(left);
-        let best = (0..self.drafts.len()).min_by(|&a, &b| error(&self.drafts[a]).total_cmp(&error(&self.drafts[b])))?;
+    fn chosen_for_time(&mut self) -> Option<Chosen> {
+        // Where there is as much time as one likes, no more samples than were looked at without coming to what was wanted.
+        let left = self.goal.end.map(|_| self.seconds_left());
+        let error = |draft: &Draft| left.map_or(draft.last_error(), |left| draft.error_in(left, 1.0));
+        let order = |&a: &usize, &b: &usize| error(&self.drafts[a]).total_cmp(&error(&self.drafts[b]));
+        let best = (0..self.drafts.len()).min_by(order)?;
         let draft = self.drafts.swap_remove(best);
-        let promise = Promise { error: Some(error(&draft)), seconds: Some(draft.light_seconds + left) };
-        self.expose(draft, ImageSettings::MAX_SAMPLES, promise)
+        let promise = Promise { error: Some(error(&draft)), seconds: left.map(|left| draft.light_seconds + left) };
+        let samples = if left.is_some() { ImageSettings::MAX_SAMPLES } else { draft.samples() };
+        Some(Chosen { draft, samples, promise })
     }
 
-    /// The cheapest that is good enough, as its pixels show before the others are made; where none is, the best.
-    fn picture_of_error(&mut self, wanted: f64) -> Option<Pictured> {
-        let mut best: Option<Best> = None;
-        while !self.drafts.is_empty() {
-            let price = |draft: &Draft| draft.seconds_to(SAFE * wanted).unwrap_or(f64::MAX);
-            let order = |&a: &usize, &b: &usize| price(&self.drafts[a]).total_cmp(&price(&self.drafts[b]));
-            let cheapest = (0..self.drafts.len()).min_by(order)?;
-            let mut draft = self.drafts.swap_remove(cheapest);
-            let foreseen = draft.seconds_to(SAFE * wanted);
-            let promise =
-                Promise { error: Some(wanted), seconds: foreseen.map(|seconds| draft.light_seconds + seconds) };
+    /// The cheapest that is good enough, as its pixels show before the others are made; `None` where none is.
+    fn chosen_for_error(&mut self, wanted: f64) -> Option<Chosen> {
+        let price = |draft: &Draft| draft.seconds_to(SAFE * wanted, 1.0).unwrap_or(f64::MAX);
+        self.drafts.sort_by(|a, b| price(a).total_cmp(&price(b)));
+        for index in 0..self.drafts.len() {
+            if self.cancel.is_requested() || Instant::now() >= self.end {
+                break;
+            }
+            let left = self.seconds_left();
+            let draft = &mut self.drafts[index];
+            let foreseen = draft.seconds_to(SAFE * wanted, 1.0);
             // What is known to have no bias gets there in the end.
             let patience = if draft.recipe.way == Way::Reference { f64::MAX } else { PATIENCE };
-            let limit = foreseen.map_or(0.0, |seconds| patience * seconds);
+            // The rest of the picture is to be made in the time left, too.
+            let limit = foreseen.map_or(0.0, |seconds| (patience * seconds).min(left));
             let samples = draft.expose_until(&mut self.truth, SAFE * wanted, limit, self.end, self.cancel);
-            let error = draft.last_error();
-            if samples.is_some() || best.as_ref().is_none_or(|best| error < best.error) {
-                best = Some(Best { samples: samples.unwrap_or(draft.samples()), draft, promise, error });
+            if let Some(samples) = samples {
+                let draft = self.drafts.swap_remove(index);
+                let seconds = foreseen.map(|seconds| draft.light_seconds + seconds);
+                return Some(Chosen { draft, samples, promise: Promise { error: Some(wanted), seconds } });
             }
-            if samples.is_some() || self.cancel.is_requested() || Instant::now() >= self.end {
+        }
+        None
+    }
+
+    /// The whole picture, in whole passes: so it can be made again.
+    fn expose(&mut self, world: &Arc<World>, chosen: Chosen) -> Result<Pictured, NotFound> {
+        let start = Instant::now();
+        let Chosen { draft: Draft { mut recipe, lit, light_seconds, .. }, samples, promise } = chosen;
+        recipe.settings.image.samples = samples;
+        let PictureGoal { camera, size, .. } = *self.goal;
+        let run = ImageRun::new(&lit.sources, recipe.way.picture(), camera, size, &recipe.settings);
+        let image = run.and_then(|mut run| {
+            let mut pass = Instant::now();
+            while run.step(self.cancel) == Step::Advanced {
+                if run.is_between_passes() {
+                    let last = pass.elapsed();
+                    pass = Instant::now();
+                    if self.goal.end.is_some_and(|end| pass + last > end) {
+                        break;
+                    }
+                }
+            }
+            run.image().filter(|image| image.samples > 0 && !self.cancel.is_requested())
+        });
+        let Some(image) = image else { return Err(NotFound::NoTime) };
+        let elapsed = start.elapsed();
+        recipe.settings.image.samples = image.samples;
+        let error = self.error_of(world, &image).ok_or(NotFound::Dark)?;
+        let image = CameraImage { elapsed, is_complete: true, ..image };
+        let seconds = light_seconds + elapsed.as_secs_f64();
+        Ok(Pictured { recipe, light: lit.light, image, error, promise, seconds })
+    }
+
+    /// How far off a picture is: where there is time, at other pixels than it was chosen by, against a truth that is good
+    /// enough to tell.
+    fn error_of(&mut self, world: &Arc<World>, image: &CameraImage) -> Option<Error> {
+        let (radiance, width) = (&image.radiance, image.size[0]);
+        if self.goal.end.is_some() {
+            return self.truth.error_of_picture(radiance, width);
+        }
+        let mut truth = PixelTruth::new(world, self.goal.camera, image.size, PIXELS, JUDGING);
+        let end = Instant::now() + LAST_TRUTH;
+        let wanted = self.goal.error.unwrap_or(0.0);
+        while Instant::now() < end && truth.refine(self.cancel) {
+            let is_enough = |error: &Error| error.uncertainty <= SURE * error.rms.max(wanted);
+            if truth.error(&truth.of_places(radiance, width)).as_ref().is_some_and(is_enough) {
                 break;
             }
         }
-        let Best { draft, samples, promise, .. } = best?;
-        self.expose(draft, samples, promise)
-    }
-
-    /// The whole picture.
-    fn expose(&mut self, draft: Draft, samples: u32, promise: Promise) -> Option<Pictured> {
-        let start = Instant::now();
-        let Draft { mut recipe, lit, light_seconds, .. } = draft;
-        recipe.settings.image.samples = samples;
-        let PictureGoal { camera, size, .. } = *self.goal;
-        let mut run = ImageRun::new(&lit.sources, recipe.way.picture(), camera, size, &recipe.settings)?;
-        let has_time = |run: &ImageRun| self.goal.end.is_none_or(|end| Instant::now() < end) || run.samples() == 0;
-        while has_time(&run) && run.step(self.cancel) == Step::Advanced {}
-        let elapsed = start.elapsed();
-        let image = CameraImage { elapsed, is_complete: true, ..run.image()? };
-        recipe.settings.image.samples = image.samples;
-        let error = self.error_of(&image)?;
-        let seconds = light_seconds + elapsed.as_secs_f64();
-        Some(Pictured { recipe, light: lit.light, image, error, promise, seconds })
-    }
-
-    /// How far off a picture is; where there is time, against a truth that is good enough to tell.
-    fn error_of(&mut self, image: &CameraImage) -> Option<Error> {
-        let end = Instant::now() + LAST_TRUTH;
-        loop {
-            let error = self.truth.error_of_picture(&image.radiance, image.size[0])?;
-            let is_enough = error.uncertainty <= SURE * error.rms || self.goal.end.is_some();
-            if is_enough || Instant::now() >= end || !self.truth.refine(self.cancel) {
-                return Some(error);
-            }
-        }
+        truth.error_of_picture(radiance, width)
     }
 }

@@ -50,8 +50,7 @@ impl<W: Workshop> Solver<W> {
         let Some(picture) = self.easel.picture(shot.view) else {
             return Some(ToDo { next: Next::Begin, is_urgent: true });
         };
-        let next = picture
-            .next(&source, shot.view.samples(self.snapshot.settings.image.samples).min(ImageSettings::MAX_SAMPLES));
+        let next = picture.next(&source, self.snapshot.settings.image.samples_of(shot.view));
         let is_urgent = picture.is_first() || source.amount.is_whole_pass;
         (next != Next::Nothing).then_some(ToDo { next, is_urgent })
     }
