@@ -84,8 +84,13 @@ pub fn study(
         let now = Instant::now();
         let is_last = run + 1 == recipes.len();
         let share = (FAIR_SHARES / (recipes.len() - run) as f64).min(AT_MOST);
-        let end = if is_last { end_of_recipes } else { now + left(now, end_of_sweep).mul_f64(share) };
-        let tried = attempt(bench, recipe, end, cancel, &mut |outcome| {
+        let until = if is_last {
+            // Whatever others have overdrawn: its slope is what one knows beforehand.
+            end_of_recipes.max(now + budget.mul_f64(PATHS)).min(end)
+        } else {
+            now + left(now, end_of_sweep).mul_f64(share)
+        };
+        let tried = attempt(bench, recipe, until, cancel, &mut |outcome| {
             outcomes.push((run, Outcome { light: None, ..outcome }));
             Verdict::Continue(())
         });

@@ -4,8 +4,10 @@ use super::{builtin, finished, home, scene, sources, with_photons, with_samples}
 use glam::Vec3;
 use lightwell::cancel::Cancel;
 use lightwell::choice::Choice;
+use lightwell::effects::{Effect, Effects, Switches};
 use lightwell::math::rgb::luminance;
 use lightwell::methods::image::{ImageRun, Sources};
+use lightwell::methods::transport::Transport;
 use lightwell::methods::{ImageSettings, Settings, Step};
 use lightwell::solution::{CameraImage, CameraView, Comparison, Judged, PictureError};
 use lightwell::worker::Run;
@@ -90,6 +92,23 @@ fn direct_light_in_a_furnace_is_too_dark_by_what_its_walls_reflect() {
     let noise = noise(&gathered) + 4.0 / 200_000_f64.sqrt();
     println!("{gathered:?}, noise {noise}");
     assert!(noise < 0.05 && gathered.offset.abs() < noise, "{gathered:?}, noise {noise}");
+}
+
+#[test]
+fn an_effect_that_is_left_out_is_a_part_of_the_error() {
+    let world = builtin("cornell-box");
+    let error = |off: &[Effect]| {
+        let effects = Switches { off: Effects::of(off), ..Switches::default() };
+        let transport = Arc::new(Transport::new(world.clone(), effects));
+        let sources = Sources { transport, radiosity: None, photons: None };
+        let settings = Settings { effects, ..with_samples(64) };
+        error_of(&finished(&sources, CameraView::Error(Judged::RayTraced), home(&world), [32, 32], &settings))
+    };
+    let (whole, shadowless) = (error(&[]), error(&[Effect::Shadows]));
+    // The truth is the same: its mean over a thousand pixels, by different random numbers where paths go other ways.
+    assert!((shadowless.mean / whole.mean - 1.0).abs() < 6.0 * whole.floor / 32.0, "{whole:?} {shadowless:?}");
+    // Light that the blocks would keep away.
+    assert!(shadowless.offset > whole.offset + 0.02, "{whole:?} {shadowless:?}");
 }
 
 #[test]

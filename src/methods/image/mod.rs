@@ -108,7 +108,7 @@ impl Sources {
         let settings =
             Settings { image: ImageSettings { filter: PathFilter::default(), ..settings.image }, ..*settings };
         let transport = self.transport.clone();
-        let truth = if settings.effects == Switches::default() {
+        let truth = if transport.effects == Switches::default().simulated_in(&transport.world) {
             transport.clone()
         } else {
             Arc::new(Transport::new(transport.world.clone(), Switches::default()))

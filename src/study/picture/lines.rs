@@ -120,3 +120,60 @@ impl Line {
         self.decay.powi(turns)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cancel::Cancel;
+    use crate::scene::Scene;
+
+    fn lines() -> Vec<Line> {
+        let scene = Scene::open("cornell-box").expect("a built-in scene");
+        let world = World::build(scene, &MeshSettings::default(), &Cancel::default()).expect("a world");
+        of(&world, &Settings::default(), None)
+    }
+
+    fn ended(lines: &[Line]) -> Vec<bool> {
+        lines.iter().map(|line| line.has_ended).collect()
+    }
+
+    #[test]
+    fn what_a_turn_brought_is_expected_of_the_next() {
+        let mut line = lines().remove(1);
+        line.note(1.0, 0.08, 0);
+        line.note(3.0, 0.02, 1);
+        assert_eq!((line.light_seconds(1), line.light_seconds(2)), (9.0, 27.0));
+        assert!((line.bias_left(1) - 0.25).abs() < 1e-12 && (line.bias_left(2) - 0.0625).abs() < 1e-12);
+        let [first, next] = [line.first, line.recipe()].map(|recipe| recipe.settings.mesh.element_size);
+        assert_eq!(next, first.map(|size| size / 4.0));
+        // A bias that does not fall any further, or that cannot be told from none.
+        line.note(9.0, 0.02, 2);
+        assert!(line.has_ended);
+        let mut exact = lines().remove(3);
+        exact.note(1.0, 0.0, 0);
+        assert!(!exact.has_ended);
+        exact.note(4.0, 0.0, 1);
+        assert!(exact.has_ended);
+    }
+
+    #[test]
+    fn of_two_lines_to_the_same_light_the_faster_goes_on() {
+        let mut lines = lines();
+        keep_the_faster(&mut lines);
+        lines[1].note(1.0, 0.1, 0);
+        keep_the_faster(&mut lines);
+        assert_eq!(ended(&lines), [false; 5]);
+        lines[2].note(0.5, 0.1, 1);
+        keep_the_faster(&mut lines);
+        assert_eq!(ended(&lines), [false, true, false, false, false]);
+    }
+
+    #[test]
+    fn a_line_that_cannot_begin_stands_in_nobodys_way() {
+        let mut lines = lines();
+        lines[2].end();
+        lines[1].note(1.0, 0.1, 0);
+        keep_the_faster(&mut lines);
+        assert_eq!(ended(&lines), [false, false, true, false, false]);
+    }
+}
