@@ -84,14 +84,14 @@ fn a_picture_for_a_time_takes_it_and_can_be_made_again() {
     }
     let folder = folder();
     let start = Instant::now();
-    let report = json(&folder, "render cornell-box -o box.exr --size 128x128 --time 3 --json");
+    let report = json(&folder, "render cornell-box -o box.exr --size 200x200 --time 3 --json");
     let seconds = start.elapsed().as_secs_f64();
     // It ends with a whole sample of every pixel: the last one before the time is up.
     assert!((2.5..3.3).contains(&seconds), "{seconds}");
     assert_eq!((&report["promised"]["seconds"], &report["kept"]), (&3.0.into(), &true.into()));
     assert!(number(&report["achieved"]["error"]) < 0.1, "{report}");
     let options = report["chosen"]["options"].as_str().expect("text");
-    printed(&folder, &format!("render cornell-box -o again.exr --size 128x128 {options}"));
+    printed(&folder, &format!("render cornell-box -o again.exr --size 200x200 {options}"));
     assert!(radiances(&folder, "again.exr") == radiances(&folder, "box.exr"), "{options}");
 }
 

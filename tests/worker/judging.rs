@@ -44,6 +44,20 @@ fn the_error_of_a_run_is_that_of_its_solution() {
 }
 
 #[test]
+fn what_was_measured_is_held_against_every_better_truth() {
+    let worker = Worker::spawn(None, || ());
+    worker.send(Command::Configure(with_elements(0.04)));
+    load(&worker, "cornell-box");
+    wait_for(&worker, "a truth", is_known);
+    worker.send(Command::Run);
+    let floor = |now: &Snapshot| now.truth.as_ref().map_or(f64::INFINITY, |truth| truth.floor);
+    let early = wait_for(&worker, "measured", |now| error(now, LightKind::Radiosity).is_some());
+    let late = wait_for(&worker, "a better truth", |now| floor(now) < 0.8 * floor(&early));
+    let track = &late.tracks[0];
+    assert!(track.points.iter().all(|point| point.error.floor == floor(&late)), "{} {track:?}", floor(&late));
+}
+
+#[test]
 fn each_run_leaves_a_track_and_another_scene_none() {
     let worker = Worker::spawn(None, || ());
     let photons = PhotonSettings { count: 20_000, is_progressive: true, passes: 4, ..PhotonSettings::default() };
