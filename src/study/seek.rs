@@ -30,7 +30,7 @@ const LEAST_TURNS: f64 = 0.25;
 const LEVEL: f64 = 0.97;
 /// Longest edge of an element to begin with, in those of the automatic mesh.
 const COARSE: f32 = 4.0;
-/// The same of the first attempt, before there is anything to fall back on.
+/// The same of an attempt before there is anything to fall back on, and what an attempt may take that nothing is known of.
 const SMALL_PART: f64 = 0.2;
 /// What an attempt aims at, in what is safe.
 const AIM: f64 = 0.95;
@@ -77,7 +77,8 @@ pub fn seek(bench: &mut Bench, settings: &Settings, goal: &Goal, cancel: &Cancel
         return Err(NotFound::Dark);
     }
     if let Some(known) = search.known(&bench.memory) {
-        search.follow(bench, &known.recipe, Promise { error: Some(known.error), seconds: Some(known.seconds) });
+        let promise = Promise { error: Some(known.error), seconds: Some(known.seconds) };
+        search.follow(bench, &known.recipe, promise, end);
     }
     let mut families = families(bench, settings);
     for family in &mut families {
@@ -87,7 +88,8 @@ pub fn seek(bench: &mut Bench, settings: &Settings, goal: &Goal, cancel: &Cancel
         let Some((family, turns)) = search.choose(&families) else { break };
         let promise = families[family].promise(turns);
         let recipe = families[family].recipe(turns);
-        let tried = search.follow(bench, &recipe, promise);
+        let end = search.end_of_attempt(families[family].tried.is_empty());
+        let tried = search.follow(bench, &recipe, promise, end);
         families[family].note(turns, tried);
     }
     if goal.error.is_none() {
@@ -194,10 +196,20 @@ impl Search<'_> {
         gains.then_some((turns, rank))
     }
 
+    /// When an attempt is given up: one that nothing is known of must leave most of the time allowed to others.
+    fn end_of_attempt(&self, is_first: bool) -> Instant {
+        if is_first && self.goal.error.is_none() {
+            let now = Instant::now();
+            return now + self.end.saturating_duration_since(now).mul_f64(SMALL_PART);
+        }
+        self.end
+    }
+
     /// Follows a recipe until its end or until the goal is met; what came of it at last, if anything did.
-    fn follow(&mut self, bench: &mut Bench, recipe: &Recipe, promise: Promise) -> Option<Tried> {
+    fn follow(&mut self, bench: &mut Bench, recipe: &Recipe, promise: Promise, end: Instant) -> Option<Tried> {
+        let start = Instant::now();
         let truth = bench.reference.truth().clone();
-        let (end, wanted) = (self.end, self.goal.error);
+        let wanted = self.goal.error;
         let mut last: Option<(Outcome, Error)> = None;
         let followed = attempt(bench, recipe, end, self.cancel, &mut |outcome| {
             let Some(error) = truth.error(&outcome.found) else { return Verdict::Continue(()) };
@@ -209,7 +221,10 @@ impl Search<'_> {
             log::info!("{}: {}", recipe.options(), with_causes(&reason));
             self.refusal = Some(reason);
         }
-        let (outcome, error) = last?;
+        let Some((outcome, error)) = last else {
+            log::info!("nothing in {:.2} s, expected {promise:?}: {}", start.elapsed().as_secs_f64(), recipe.options());
+            return None;
+        };
         bench.memory.note(outcome.recipe, &outcome.price, error.rms);
         let Price { seconds, all_seconds, .. } = outcome.price;
         log::info!("{:.4} in {all_seconds:.2} s, expected {promise:?}: {}", error.rms, outcome.recipe.options());
@@ -352,8 +367,12 @@ impl Family {
 
     /// By how much a turn lengthens the time.
     fn growth(&self) -> f64 {
-        // What it costs to begin hides how fast all pairs of smaller elements grow in number.
-        let least = if self.first.way == Way::Radiosity { 6.0 } else { 1.5 };
+        // What it costs to begin hides how fast pairs of smaller elements grow in number: in the end sixteenfold.
+        let least = match self.first.way {
+            Way::Radiosity if self.first.settings.solver.needs_matrix() => 10.0,
+            Way::Radiosity => 7.0,
+            _ => 1.5,
+        };
         self.expected[0].clamp(least, 16.0)
     }
 
