@@ -10,7 +10,7 @@ use lightwell::app::action::Action;
 use lightwell::app::model::{LowerPanel, Theme};
 use lightwell::app::wish::Wish;
 use lightwell::methods::Settings;
-use lightwell::study::{Answer, Choice, Promise, Question, Recipe, State, Way};
+use lightwell::study::{Answer, Choice, Measured, Price, Promise, Question, Recipe, State, Study, Way};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -66,6 +66,32 @@ fn wishes_are_asked_for_by_buttons_and_answered_in_words() {
     missed.get_by_label_contains("not reached: 6.00\u{2009}%");
     let failed = Stage { answer: answered(State::Failed("a fault of the program".to_owned())), ..opened() };
     failed.window(LARGE).get_by_label("It stopped: a fault of the program");
+}
+
+#[test]
+fn a_study_shows_what_each_way_comes_to() {
+    let measured = |run: usize, way, seconds, rms| Measured {
+        run,
+        recipe: Recipe { way, settings: Settings::default() },
+        is_finished: true,
+        price: Price { seconds, ..Price::default() },
+        error: Error { rms, ..Error::default() },
+    };
+    let study = Study {
+        measured: vec![
+            measured(0, Way::Radiosity, 0.1, 0.2),
+            measured(0, Way::Radiosity, 0.5, 0.05),
+            measured(1, Way::Reference, 0.2, 0.08),
+            measured(1, Way::Reference, 0.8, 0.04),
+        ],
+        front: vec![0, 2, 1, 3],
+        slopes: vec![(Way::Reference, -0.5)],
+        ..Study::default()
+    };
+    let window = Stage { answer: answered(State::Studied(Arc::new(study))), ..opened() }.window(LARGE);
+    window.get_by_label("Radiosity: 5.00\u{2009}% at best");
+    window.get_by_label("Path tracing: 4.00\u{2009}% at best, slope −0.50");
+    assert!(window.query_by_label_contains("Photon map:").is_none());
 }
 
 /// Of the light on show alone.

@@ -10,9 +10,11 @@ use crate::app::model::Model;
 use crate::app::theme::{Palette, UNIT};
 use crate::app::wish::Wish;
 use crate::choice::Choice as _;
-use crate::study::{Answer, Choice, Measured, Question, State, Way};
+use crate::cli::picture::Kept;
+use crate::methods::Settings;
+use crate::study::{Answer, Choice, Measured, Question, State, Study, Way};
 use crate::worker::{Track, TrackPoint};
-use egui::{Button, DragValue, Label, RichText, ScrollArea, Sense, Ui, Vec2, vec2};
+use egui::{Button, Color32, DragValue, Label, RichText, ScrollArea, Sense, Ui, Vec2, vec2};
 use egui_plot::{
     GridMark, HLine, HoverPosition, ItemId, Line, LineStyle, Plot, PlotPoints, PlotUi, Points, Polygon, VLine,
 };
@@ -78,7 +80,7 @@ fn tell(ui: &mut Ui, answer: &Answer, actions: &mut Vec<Action>) {
             doing.clone()
         }
         State::Found(choice) => in_words(answer.question, choice),
-        State::Studied(_) => "Studied: each dot is a state of a run".to_owned(),
+        State::Studied(_) => "Studied: each thin line is a run, the thick one the front that none beats".to_owned(),
         State::Dark => "There is no light to measure".to_owned(),
         State::Failed(reason) => format!("It stopped: {reason}"),
     };
@@ -88,9 +90,10 @@ fn tell(ui: &mut Ui, answer: &Answer, actions: &mut Vec<Action>) {
 /// What was promised and what came of it, with a plain word where that was not kept.
 fn in_words(question: Question, choice: &Choice) -> String {
     let Choice { recipe, error, seconds, .. } = choice;
-    let kept = match question {
-        Question::Error(wanted) if error.rms > wanted => "not reached: ",
-        _ => "",
+    let kept = match Kept::of(question.error(), error, true) {
+        Kept::Yes => "",
+        Kept::No => "not reached: ",
+        Kept::Unknown => "not certain: ",
     };
     let (error, uncertainty) = (format::percent(error.rms), format::percent_short(error.uncertainty));
     format!("{kept}{error} ± {uncertainty} in {} by {}", format::si(*seconds, "s"), recipe.label())
@@ -110,6 +113,7 @@ pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {
 
 fn plot(ui: &mut Ui, model: &Model, descriptions: &[String], size: Vec2, actions: &mut Vec<Action>) {
     let palette = Palette::of(ui.visuals());
+    let strong = ui.visuals().strong_text_color();
     let range = range(model);
     let is_power = |mark: GridMark| mark.step_size == 1.0;
     let plot =
@@ -144,7 +148,9 @@ fn plot(ui: &mut Ui, model: &Model, descriptions: &[String], size: Vec2, actions
     let shown = plot.show(ui, |plot| {
         floor(plot, model, range, palette);
         wish(plot, model.wish, palette);
-        studied(plot, measured(model), palette);
+        if let Some(study) = study(model) {
+            studied(plot, study, palette, strong);
+        }
         for (index, (track, description)) in model.tracks.iter().zip(descriptions).enumerate() {
             let points: Vec<[f64; 2]> = track.points.iter().filter_map(logarithms).collect();
             let is_last = index + 1 == model.tracks.len();
@@ -154,25 +160,36 @@ fn plot(ui: &mut Ui, model: &Model, descriptions: &[String], size: Vec2, actions
             plot.points(Points::new(name, points).id((track.number, "points")).color(color).radius(2.5));
         }
     });
-    let is_of = |track: &&Arc<Track>| {
-        shown
-            .hovered_plot_item
-            .is_some_and(|id| [ItemId::new(track.number), ItemId::new((track.number, "points"))].contains(&id))
-    };
     if shown.response.clicked()
-        && let Some(track) = model.tracks.iter().find(is_of)
+        && let Some(settings) = shown.hovered_plot_item.and_then(|item| settings_of(item, model))
     {
-        actions.push(Action::ApplySettings(track.settings));
+        actions.push(Action::ApplySettings(settings));
     }
+}
+
+/// Those of the run that an item of the plot is of.
+fn settings_of(item: ItemId, model: &Model) -> Option<Settings> {
+    let is_of_track =
+        |track: &&Arc<Track>| [ItemId::new(track.number), ItemId::new((track.number, "points"))].contains(&item);
+    let of_track = model.tracks.iter().find(is_of_track).map(|track| track.settings);
+    let of_study = || {
+        let measured = &study(model)?.measured;
+        let last = measured.iter().rfind(|measured| run_ids(measured).contains(&item))?;
+        let Settings { seed, effects, .. } = model.settings;
+        Some(Settings { seed, effects, ..last.recipe.settings })
+    };
+    of_track.or_else(of_study)
+}
+
+/// Of the line and of the dots of a run of a study.
+fn run_ids(measured: &Measured) -> [ItemId; 2] {
+    ["line", "dots"].map(|part| ItemId::new(("studied", measured.run, part)))
 }
 
 /// The corners of what is on show, as powers of ten: whole ones, so that they rest while runs go on.
 fn range(model: &Model) -> [[f64; 2]; 2] {
     let [mut least, mut most] = [[SECONDS[0], ERRORS[0]], [SECONDS[1], ERRORS[1]]];
-    let of_study = measured(model).iter().filter_map(|measured| {
-        let Offer { seconds, error } = measured.offer();
-        powers(seconds, error)
-    });
+    let of_study = study(model).into_iter().flat_map(|study| &study.measured).filter_map(place);
     let of_tracks = model.tracks.iter().flat_map(|track| &track.points).filter_map(logarithms);
     for at in of_tracks.chain(of_study) {
         for axis in 0..2 {
@@ -202,22 +219,34 @@ fn wish(plot: &mut PlotUi<'_>, wish: Wish, palette: Palette) {
     plot.vline(VLine::new("Time allowed", seconds).color(palette.accent).style(style).allow_hover(false));
 }
 
-/// All that a study has measured, if there was one.
-fn measured<'a>(model: &Model<'a>) -> &'a [Measured] {
+/// The study of this scene, if there was one.
+fn study<'a>(model: &Model<'a>) -> Option<&'a Study> {
     match model.inquiry {
-        Some(Answer { state: State::Studied(study), .. }) => &study.measured,
-        _ => &[],
+        Some(Answer { state: State::Studied(study), .. }) => Some(study),
+        _ => None,
     }
 }
 
-/// What a study has measured, as dots.
-fn studied(plot: &mut PlotUi<'_>, measured: &[Measured], palette: Palette) {
-    for measured in measured {
-        let Some(at) = powers(measured.price.seconds, measured.error.rms) else { continue };
-        let way = Way::ALL.iter().position(|way| *way == measured.recipe.way).unwrap_or_default();
-        let color = palette.curves[way % palette.curves.len()].gamma_multiply(0.6);
-        plot.points(Points::new(measured.recipe.label(), vec![at]).color(color).radius(1.5));
+/// All runs of a study, and those that no other beats.
+fn studied(plot: &mut PlotUi<'_>, study: &Study, palette: Palette, strong: Color32) {
+    for run in study.measured.chunk_by(|one, next| one.run == next.run) {
+        let places: Vec<[f64; 2]> = run.iter().filter_map(place).collect();
+        let (name, color) = (run[run.len() - 1].recipe.label(), of_way(run[0].recipe.way, palette));
+        let [line, dots] = run_ids(&run[0]);
+        plot.line(Line::new(&name, places.clone()).id(line).color(color.gamma_multiply(0.5)).width(1.0));
+        plot.points(Points::new(name, places).id(dots).color(color).radius(2.0));
     }
+    let front: Vec<[f64; 2]> = study.front.iter().filter_map(|&index| place(&study.measured[index])).collect();
+    plot.line(Line::new("The front", front).color(strong).width(2.5).allow_hover(false));
+}
+
+fn of_way(way: Way, palette: Palette) -> Color32 {
+    let index = Way::ALL.iter().position(|other| *other == way).unwrap_or_default();
+    palette.curves[index % palette.curves.len()]
+}
+
+fn place(measured: &Measured) -> Option<[f64; 2]> {
+    powers(measured.price.seconds, measured.error.rms)
 }
 
 fn logarithms(point: &TrackPoint) -> Option<[f64; 2]> {
@@ -247,6 +276,9 @@ fn legend(ui: &mut Ui, model: &Model, descriptions: &[String], actions: &mut Vec
                 }
             });
         }
+        if let Some(study) = study(model) {
+            ways(ui, study, palette);
+        }
         if let Some(truth) = model.truth.filter(|truth| truth.floor.is_finite()) {
             let text = format!(
                 "Reference: {} paths a point, {}",
@@ -263,6 +295,20 @@ fn legend(ui: &mut Ui, model: &Model, descriptions: &[String], actions: &mut Vec
     });
 }
 
+/// What a study has found of each way.
+fn ways(ui: &mut Ui, study: &Study, palette: Palette) {
+    for &way in Way::ALL {
+        let errors = study.measured.iter().filter(|measured| measured.recipe.way == way).map(|one| one.error.rms);
+        let Some(best) = errors.reduce(f64::min) else { continue };
+        let slope = study.slopes.iter().find(|(other, _)| *other == way).map(|(_, slope)| in_short(*slope));
+        let text = format!("{}: {} at best{}", way.label(), format::percent(best), slope.unwrap_or_default());
+        ui.horizontal_top(|ui| {
+            chip(ui, of_way(way, palette));
+            ui.add(Label::new(RichText::new(&text).small()).truncate()).on_hover_text(way.meaning());
+        });
+    }
+}
+
 fn without_runs(model: &Model) -> &'static str {
     if model.scene.is_some_and(|scene| scene.is_dark()) {
         "Without an emitter there is no light to measure"
@@ -277,6 +323,9 @@ fn state(track: &Track) -> String {
     let error = format::percent(last.error.rms);
     let offers: Vec<Offer> =
         track.points.iter().map(|point| Offer { seconds: point.seconds, error: point.error.rms }).collect();
-    let slope = slope_at_end(&offers).map(|slope| format!(", slope {slope:.2}").replace('-', "−"));
-    format!("{error}{}", slope.unwrap_or_default())
+    format!("{error}{}", slope_at_end(&offers).map(in_short).unwrap_or_default())
+}
+
+fn in_short(slope: f64) -> String {
+    format!(", slope {slope:.2}").replace('-', "−")
 }

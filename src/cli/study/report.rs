@@ -144,5 +144,7 @@ fn memory(bytes: u64) -> String {
 }
 
 fn signed(number: f64) -> String {
-    format!("{number:.2}").replace('-', "−")
+    // Of what is nearly 0 no sign.
+    let rounded = (100.0 * number).round() / 100.0 + 0.0;
+    format!("{rounded:.2}").replace('-', "−")
 }
