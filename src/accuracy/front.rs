@@ -47,6 +47,13 @@ pub fn slope_at_end(offers: &[Offer]) -> Option<f64> {
     slope(&offers.iter().copied().filter(|offer| offer.seconds >= from).collect::<Vec<_>>())
 }
 
+/// An exponent as it is written.
+pub fn exponent(slope: f64) -> String {
+    // Of what is nearly 0 no sign.
+    let rounded = (100.0 * slope).round() / 100.0 + 0.0;
+    format!("{rounded:.2}").replace('-', "−")
+}
+
 /// From which offer on errors fall no more, however long one goes on: what is left is bias. `None` unless that was watched for
 /// long enough to tell it from noise that falls, which would have lost a sixth meanwhile. Offers are in the order of time.
 pub fn level_from(offers: &[Offer]) -> Option<usize> {
@@ -74,6 +81,11 @@ mod tests {
         assert!((slope_at_end(&begins_late).expect("a slope") + 0.5).abs() < 1e-12);
         assert_eq!(slope(&offers[..2]), None);
         assert_eq!(slope(&[offer(1.0, 1.0); 3]), None);
+    }
+
+    #[test]
+    fn exponents_are_written_with_a_sign_where_they_have_one() {
+        assert_eq!([-0.504, -0.001, 0.0, 0.25].map(exponent), ["−0.50", "0.00", "0.00", "0.25"]);
     }
 
     #[test]

@@ -11,7 +11,7 @@ mod reference;
 pub use cache::{Cache, CacheError, Key};
 pub use error::Error;
 pub use found::{Found, by_photons, by_radiosity, surfaces};
-pub use front::{Offer, front, level_from, slope_at_end};
+pub use front::{Offer, exponent, front, level_from, slope_at_end};
 pub use pixel_truth::{Parts, PixelTruth};
 pub use points::{ProbePoint, spread};
 pub use reference::{Reference, Truth};

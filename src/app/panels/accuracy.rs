@@ -2,7 +2,7 @@
 
 use super::chart::{color, decades, name};
 use super::widgets::chip;
-use crate::accuracy::{Offer, slope_at_end};
+use crate::accuracy::{Offer, exponent, slope_at_end};
 use crate::app::action::Action;
 use crate::app::chart::descriptions_of_tracks;
 use crate::app::format;
@@ -80,7 +80,7 @@ fn tell(ui: &mut Ui, answer: &Answer, actions: &mut Vec<Action>) {
             doing.clone()
         }
         State::Found(choice) => in_words(answer.question, choice),
-        State::Studied(_) => "Studied: each thin line is a run, the thick one the front that none beats".to_owned(),
+        State::Studied(_) => "Studied: runs, and the front that none beats".to_owned(),
         State::Dark => "There is no light to measure".to_owned(),
         State::Failed(reason) => format!("It stopped: {reason}"),
     };
@@ -174,7 +174,7 @@ fn settings_of(item: ItemId, model: &Model) -> Option<Settings> {
     let of_track = model.tracks.iter().find(is_of_track).map(|track| track.settings);
     let of_study = || {
         let measured = &study(model)?.measured;
-        let last = measured.iter().rfind(|measured| run_ids(measured).contains(&item))?;
+        let last = measured.iter().rfind(|measured| run_ids(measured).map(ItemId::new).contains(&item))?;
         let Settings { seed, effects, .. } = model.settings;
         Some(Settings { seed, effects, ..last.recipe.settings })
     };
@@ -182,8 +182,8 @@ fn settings_of(item: ItemId, model: &Model) -> Option<Settings> {
 }
 
 /// Of the line and of the dots of a run of a study.
-fn run_ids(measured: &Measured) -> [ItemId; 2] {
-    ["line", "dots"].map(|part| ItemId::new(("studied", measured.run, part)))
+fn run_ids(measured: &Measured) -> [(&'static str, usize); 2] {
+    ["line of a study", "dots of a study"].map(|part| (part, measured.run))
 }
 
 /// The corners of what is on show, as powers of ten: whole ones, so that they rest while runs go on.
@@ -263,7 +263,7 @@ fn legend(ui: &mut Ui, model: &Model, descriptions: &[String], actions: &mut Vec
     let palette = Palette::of(ui.visuals());
     ScrollArea::vertical().id_salt("measured runs").auto_shrink(false).show(ui, |ui| {
         ui.spacing_mut().item_spacing.y = UNIT;
-        if model.tracks.is_empty() {
+        if model.tracks.is_empty() && study(model).is_none() {
             ui.label(RichText::new(without_runs(model)).weak());
         }
         for (track, description) in model.tracks.iter().zip(descriptions).rev() {
@@ -327,5 +327,5 @@ fn state(track: &Track) -> String {
 }
 
 fn in_short(slope: f64) -> String {
-    format!(", slope {slope:.2}").replace('-', "−")
+    format!(", slope {}", exponent(slope))
 }

@@ -1,5 +1,6 @@
 //! Error over seconds as a chart in a file, both by their logarithms.
 
+use crate::accuracy::exponent;
 use crate::choice::Choice;
 use crate::study::{Measured, Study, Way};
 use plotters::chart::{ChartBuilder, ChartContext, SeriesLabelPosition};
@@ -116,7 +117,7 @@ fn runs(chart: &mut Chart<'_, '_>, study: &Study, way: Way) -> Result<(), Box<dy
     }
     let slope = study.slopes.iter().find(|(other, _)| *other == way);
     let label = match slope {
-        Some((_, slope)) => format!("{}, exponent {slope:.2}", way.label()).replace('-', "−"),
+        Some((_, slope)) => format!("{}, exponent {}", way.label(), exponent(*slope)),
         None => way.label().to_owned(),
     };
     let style = ShapeStyle::from(colour).stroke_width(3);

@@ -1,5 +1,6 @@
 //! What a study has found, in words and tables.
 
+use crate::accuracy::exponent;
 use crate::choice::Choice;
 use crate::study::{Gain, Measured, Setting, Study, Turn};
 
@@ -48,7 +49,7 @@ pub fn markdown(scene: &str, budget: f64, study: &Study) -> String {
              that of well-spread ones a little faster. Where a bias is left, errors level off: towards 0.\n\n";
     text += "| method | exponent over the last tenfold of time |\n|---|---:|\n";
     for (way, slope) in &study.slopes {
-        text += &format!("| {} | {} |\n", way.label(), signed(*slope));
+        text += &format!("| {} | {} |\n", way.label(), exponent(*slope));
     }
     text += &levels(study);
     text += "\n## What each knob buys\n\nAll other settings are as they were.\n\n";
@@ -141,10 +142,4 @@ fn seconds(seconds: f64) -> String {
 fn memory(bytes: u64) -> String {
     let mib = bytes as f64 / f64::from(1 << 20);
     if bytes == 0 { "0".to_owned() } else { format!("{mib:.1} MiB") }
-}
-
-fn signed(number: f64) -> String {
-    // Of what is nearly 0 no sign.
-    let rounded = (100.0 * number).round() / 100.0 + 0.0;
-    format!("{rounded:.2}").replace('-', "−")
 }
