@@ -16,6 +16,7 @@ use super::workshop::Workshop;
 use super::{Command, LightKind, Phase, Sight, Slot, Snapshot, Spot, Subject};
 use crate::errors::with_causes;
 use crate::scene::Scene;
+use crate::solution::CameraView;
 use easel::Easel;
 use picks::Picks;
 use std::any::Any;
@@ -25,6 +26,10 @@ use std::time::{Duration, Instant};
 
 /// While running, snapshots are at least this far apart: 30 a second are as many as anyone sees.
 const PUBLISH_INTERVAL: Duration = Duration::from_millis(33);
+
+/// Share of the time that holding a picture against the truth takes from the light on show while that runs: who looks at errors
+/// wants to see them fall. Other pictures take as much time as their light.
+const COMPARING: f64 = 0.04;
 
 /// The state of the thread.
 pub struct Solver<W: Workshop> {
@@ -48,7 +53,7 @@ pub struct Solver<W: Workshop> {
     is_hushed: bool,
     /// Where the estimate from photons is looked into.
     spot: Option<Spot>,
-    /// By how much longer the light on show was worked on than the picture that is read off it, since both wanted to be.
+    /// By how much longer the light on show was worked on than the picture that is read off it is worth, since both wanted to be.
     lead: f64,
     /// What is being worked on: if it panics, it alone is given up.
     at_work: Part,
@@ -195,7 +200,7 @@ impl<W: Workshop> Solver<W> {
 
     fn work(&mut self, task: Task) {
         let start = Instant::now();
-        let sign = match task {
+        let weight = match task {
             Task::LookFrom(patch) => return self.look_from(patch),
             Task::Equation => return self.look_into_equation(),
             Task::Measure(kind) => return self.on_account(|solver| solver.measure(kind)),
@@ -206,12 +211,13 @@ impl<W: Workshop> Solver<W> {
             }
             Task::Picture => {
                 self.work_on_picture();
-                -1.0
+                let is_comparison = self.subject().view().is_some_and(CameraView::is_comparison);
+                if is_comparison { 1.0 - 1.0 / COMPARING } else { -1.0 }
             }
         };
         let seconds = start.elapsed().as_secs_f64();
         self.judge.earn(seconds);
-        self.lead += sign * seconds;
+        self.lead += weight * seconds;
     }
 
     fn subject(&self) -> Subject {

@@ -26,6 +26,9 @@ impl<W: Workshop> Solver<W> {
         if old == Some(sight) {
             return;
         }
+        if old.is_none_or(|old| old.subject != sight.subject) {
+            self.lead = 0.0;
+        }
         self.easel.has_crashed = false;
         self.picks.outdate();
         self.start_what_is_needed();
