@@ -237,3 +237,44 @@ impl Trial<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::accuracy::{Offer, level_from};
+    use crate::mesh::MeshSettings;
+    use crate::methods::FormFactorMethod;
+    use crate::scene::Scene;
+
+    /// The states of a run of radiosity that is solved far beyond its bias.
+    fn states(bench: &mut Bench, form_factor: FormFactorMethod) -> Vec<Offer> {
+        let mesh = MeshSettings { element_size: Some(0.05), ..MeshSettings::default() };
+        let settings = Settings { mesh, form_factor, unshot_limit: 1e-5, ..Settings::default() };
+        let (mut states, truth) = (Vec::new(), bench.reference.truth().clone());
+        let end = Instant::now() + Duration::from_secs(60);
+        let recipe = Recipe { way: Way::Radiosity, settings };
+        attempt(bench, &recipe, end, &Cancel::default(), &mut |outcome| {
+            let error = truth.error(&outcome.found).expect("light").rms;
+            states.push(Offer { seconds: outcome.price.seconds, error });
+            Verdict::Continue(())
+        })
+        .expect("a run");
+        states
+    }
+
+    #[test]
+    fn rough_form_factors_level_off_at_a_bias_of_their_own() {
+        let scene = Scene::open("cornell-box").expect("a built-in scene");
+        let world = World::build(scene, &MeshSettings::default(), &Cancel::default()).expect("a world");
+        let mut bench = Bench::open(Arc::new(world), MeshSettings::default(), None);
+        (0..16).for_each(|_| assert!(bench.reference.refine(&Cancel::default())));
+        let [rough, exact] =
+            [FormFactorMethod::Centroid, FormFactorMethod::Polygon].map(|method| states(&mut bench, method));
+        let level = level_from(&rough).expect("a level");
+        let [first, last] = [rough[0].error, rough[rough.len() - 1].error];
+        assert!(level > 0 && last < first / 2.0, "{rough:?}");
+        // Elements are as coarse for both: what lies between is the form factors' own.
+        let of_exact = exact[exact.len() - 1].error;
+        assert!(last > of_exact, "{last} {of_exact}");
+    }
+}

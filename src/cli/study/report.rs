@@ -143,3 +143,31 @@ fn memory(bytes: u64) -> String {
     let mib = bytes as f64 / f64::from(1 << 20);
     if bytes == 0 { "0".to_owned() } else { format!("{mib:.1} MiB") }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::accuracy::Error;
+    use crate::methods::Settings;
+    use crate::study::{Price, Recipe, Way};
+
+    #[test]
+    fn where_errors_level_off_is_told_with_what_was_spent_beyond() {
+        let measured = |seconds, rms| Measured {
+            run: 3,
+            recipe: Recipe { way: Way::Radiosity, settings: Settings::default() },
+            is_finished: true,
+            price: Price { seconds, ..Price::default() },
+            error: Error { rms, ..Error::default() },
+        };
+        let measured = vec![measured(0.2, 0.5), measured(1.0, 0.102), measured(4.0, 0.1)];
+        let study = Study { measured, levels: vec![1], ..Study::default() };
+        let text = markdown("a room", 60.0, &study);
+        assert!(
+            text.contains("## Where errors level off") && text.contains("| 10.0 % | 1.00 | 4.00 | `--method"),
+            "{text}"
+        );
+        let none = markdown("a room", 60.0, &Study { levels: Vec::new(), ..study });
+        assert!(!none.contains("level off\n"), "{none}");
+    }
+}
