@@ -128,10 +128,13 @@ fn answer(question: Question, world: &World, settings: &Settings, cache: Option<
                 let what = recipe.map_or("the reference".to_owned(), Recipe::label);
                 tell(format!("{done} of {of}: {what}"));
             });
-            match study.measured.is_empty() {
-                true if bench.reference.truth().paths == 0 || bench.reference.truth().is_dark() => State::Dark,
-                true => State::Failed(NotFound::NoTime.to_string()),
-                false => State::Studied(Arc::new(study)),
+            let is_dark = !bench.world().census.light_may_arrive || bench.reference.truth().is_dark();
+            if !study.measured.is_empty() {
+                State::Studied(Arc::new(study))
+            } else if is_dark {
+                State::Dark
+            } else {
+                State::Failed(NotFound::NoTime.to_string())
             }
         }
     };

@@ -68,7 +68,9 @@ pub fn measure(
         let is_dark = error.is_none() && meters.paths() >= DARK;
         let last = elapsed.saturating_sub(before);
         if is_met || is_dark || Instant::now() + last > end {
-            let (Some(error), Some(promise)) = (error, promise) else { return Err(NotFound::Dark.into()) };
+            let (Some(error), Some(promise)) = (error, promise) else {
+                return Err(if is_dark { NotFound::Dark } else { NotFound::NoTime }.into());
+            };
             let mut recipe = Recipe { way: Way::Reference, settings };
             recipe.settings.image.samples = u32::try_from(meters.paths()).unwrap_or(u32::MAX);
             let account = Account {

@@ -12,8 +12,7 @@ use super::occlusion_options::OcclusionOptions;
 use super::photon_options::PhotonOptions;
 use super::run_options::RunOptions;
 use super::{CliError, picture, refuse, values};
-use crate::methods::ImageSettings;
-use crate::methods::{OcclusionSettings, Settings};
+use crate::methods::{ImageSettings, OcclusionSettings, Settings};
 use crate::viewport::{Picture, View};
 use serde_json::{Value, json};
 use std::io::Write;
@@ -54,9 +53,9 @@ pub struct Options {
     /// Outline the elements
     #[arg(long)]
     wireframe: bool,
-    /// Samples a pixel, by rays from the camera one by one and else in steps of four [default: 16, of an
-    /// error 256, or as many as --time allows]; where --passes asks for more passes than one, each gives a sample; for ambient-occlusion-vertices, rounds
-    /// of rays from every vertex
+    /// Samples a pixel, by rays from the camera one by one and else in steps of four [default: 16, of an error 256, or as many
+    /// as --time allows]; where --passes asks for more passes than one, each gives a sample; for ambient-occlusion-vertices,
+    /// rounds of rays from every vertex
     #[arg(long, value_name = "N", value_parser = values::count::<{ ImageSettings::MAX_SAMPLES }>)]
     samples: Option<u32>,
     #[command(flatten)]

@@ -72,10 +72,9 @@ fn levels(study: &Study) -> String {
     if study.levels.is_empty() {
         return String::new();
     }
-    let mut text =
-        "\n## Where errors level off\n\nRadiosity tends to the bias of its elements and form factors: from then on, \
-                    solving any longer bought nothing.\n\n| error | after seconds | of | how |\n|---:|---:|---:|---|\n"
-            .to_owned();
+    let mut text = String::from("\n## Where errors level off\n\n");
+    text += "Radiosity tends to the bias of its elements and form factors: from then on, solving any longer bought nothing.\n\n";
+    text += "| error | after seconds | of | how |\n|---:|---:|---:|---|\n";
     for since in study.levels.iter().map(|&index| &study.measured[index]) {
         let Some(last) = study.measured.iter().rfind(|measured| measured.run == since.run) else { continue };
         text += &format!(
