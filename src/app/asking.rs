@@ -118,3 +118,61 @@ fn shows_light_as_it_is(view: View) -> bool {
         _ => true,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::accuracy::Error;
+    use crate::cancel::Cancel;
+    use crate::effects::{Effect, Effects, Switches};
+    use crate::mesh::MeshSettings;
+    use crate::methods::Settings;
+    use crate::worker::{LightKind, Track};
+    use crate::world::World;
+    use std::time::{Duration, Instant};
+
+    /// With a run of radiosity that was measured.
+    fn measured(settings: Settings, rms: f64) -> Snapshot {
+        let error = Error { rms, ..Error::default() };
+        let points = vec![TrackPoint { seconds: 0.5, error }];
+        let track = Track { number: 1, kind: LightKind::Radiosity, settings, points };
+        Snapshot { tracks: vec![Arc::new(track)], ..Snapshot::default() }
+    }
+
+    #[test]
+    fn an_error_is_claimed_for_views_that_show_the_light_as_it_is() {
+        let (asking, snapshot) = (Asking::new(None), measured(Settings::default(), 0.03));
+        for view in [View::Smooth, View::Camera(CameraView::RadiositySpecular)] {
+            let claim = asking.claim(&snapshot, view).expect("a claim");
+            assert!(claim.error.rms == 0.03 && claim.kept.is_none() && claim.options.is_none(), "{view:?}");
+        }
+        // Rays find a part of the light, or all of it; and of photons nothing was measured.
+        for view in [CameraView::RadiosityDirect, CameraView::Reference, CameraView::PhotonRadiance] {
+            assert!(asking.claim(&snapshot, View::Camera(view)).is_none(), "{view:?}");
+        }
+    }
+
+    #[test]
+    fn a_promise_is_claimed_for_the_very_light_that_was_found() {
+        let scene = Scene::open("furnace").expect("a built-in scene");
+        let world = World::build(scene, &MeshSettings::default(), &Cancel::default()).expect("a world");
+        let snapshot = Snapshot { world: Some(Arc::new(world)), ..Snapshot::default() };
+        let mut asking = Asking::new(None);
+        assert!(asking.ask(Question::Error(0.2), &snapshot, || ()));
+        let start = Instant::now();
+        let recipe = loop {
+            match &asking.latest().expect("an answer").state {
+                State::Found(choice) => break choice.recipe,
+                State::Doing(_) => std::thread::sleep(Duration::from_millis(5)),
+                other => panic!("{other:?}"),
+            }
+            assert!(start.elapsed() < Duration::from_secs(60));
+        };
+        let settings = recipe.applied_to(&Settings::default());
+        let kept = |settings, rms| asking.claim(&measured(settings, rms), View::Smooth).expect("a claim").kept;
+        assert_eq!((kept(settings, 0.1), kept(settings, 0.3)), (Some(Kept::Yes), Some(Kept::No)));
+        let effects = Switches { off: Effects::of(&[Effect::Shadows]), ..Switches::default() };
+        assert_eq!(kept(Settings { effects, ..settings }, 0.1), None);
+        assert_eq!(kept(Settings { seed: 7, ..settings }, 0.1), None);
+    }
+}
