@@ -26,7 +26,7 @@ const DARK: u32 = 512;
 pub struct PixelTruth {
     places: Arc<[[u32; 2]]>,
     replicates: Vec<Pixels>,
-    /// Pixels of the whole picture.
+    /// Pixels that these stand for, themselves included.
     all: u64,
     /// For each pixel and channel the estimates of L, W/(m²·sr).
     radiance: Vec<[Moments; 3]>,
@@ -47,7 +47,8 @@ impl PixelTruth {
                 .expect("path tracing needs no other light")
         };
         let replicates = (0..REPLICATES).map(replicate).collect();
-        let all = u64::from(size[0]) * u64::from(size[1]);
+        // Where there are fewer than were looked for, they are all that show anything.
+        let all = if places.len() < count { places.len() as u64 } else { u64::from(size[0]) * u64::from(size[1]) };
         Self { places, replicates, all, radiance: Vec::new(), floor: f64::INFINITY }
     }
 

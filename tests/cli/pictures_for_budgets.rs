@@ -125,7 +125,9 @@ fn pictures_of_little_are_judged_by_what_they_show() {
     // From far away: about one pixel in a thousand shows the box.
     let far = "--eye 0.278,0.273,-25 --size 160x120 --error 10 --json";
     let report = json(&folder, &format!("render cornell-box -o far.exr {far}"));
-    assert!(report["kept"] == true && number(&report["achieved"]["error"]) > 0.0, "{report}");
+    // Nearly all of them were looked at: nothing but the reference's noise is uncertain.
+    let [error, uncertainty] = ["error", "error_uncertainty"].map(|name| number(&report["achieved"][name]));
+    assert!(error > 0.0 && error < 0.1 + 3.0 * uncertainty && uncertainty < 0.02, "{report}");
     let nothing = refusal(&folder, "render cornell-box -o none.png --eye 9,9,9 --target 99,99,99 --error 5", 1);
     assert_contains(&nothing, &["no light"]);
 }
@@ -173,8 +175,9 @@ fn points_are_measured_for_a_budget() {
     let start = Instant::now();
     let report = json(&folder, "probe cornell-box --spread 100 --time 1 --json");
     let seconds = start.elapsed().as_secs_f64();
-    assert!((0.9..1.1).contains(&seconds), "{seconds}");
-    assert_eq!(report["kept"], true);
+    // With room for a machine that is busy otherwise, which the report knows of.
+    assert!((0.9..1.5).contains(&seconds), "{seconds}");
+    assert_eq!(report["kept"], number(&report["achieved"]["seconds"]) <= 1.1);
     let refused = |options: &str, parts: &[&str]| {
         assert_contains(&refusal(&folder, &format!("probe furnace --spread 5 {options}"), 2), parts);
     };

@@ -30,7 +30,7 @@ fn a_study_keeps_its_budget_and_its_front_is_monotonic() {
         "run",
         "seconds",
     ];
-    assert!(runs.len() > 50 && keys(&runs[0]) == fields, "{report}");
+    assert!(runs.len() > 20 && keys(&runs[0]) == fields, "{report}");
     let mut front: Vec<[f64; 2]> = runs
         .iter()
         .filter(|run| run["on_front"] == true)
@@ -55,7 +55,7 @@ fn a_study_keeps_its_budget_and_its_front_is_monotonic() {
     let chart = std::fs::read_to_string(folder.path().join("cost/cost.svg")).expect("a chart");
     assert_contains(&chart, &["<svg", "solver time, s", "the front", "Path tracing"]);
     let text = std::fs::read_to_string(folder.path().join("cost/report.md")).expect("a report");
-    assert_contains(&text, &["halving the element size", "doubling the photons", "## The front", "cost.svg"]);
+    assert_contains(&text, &["## The front", "## What each knob buys", "## All runs", "cost.svg"]);
 }
 
 #[test]
