@@ -77,7 +77,7 @@ fn tracer(criterion: &mut Criterion) {
     let rays: Vec<Ray> = (0..RAYS)
         .map(|_| {
             let (origin, normal) = place(&world, &mut stream);
-            Ray { origin, direction: frame(normal) * cosine_hemisphere(stream.uniform2()) }
+            Ray::new(origin, frame(normal) * cosine_hemisphere(stream.uniform2()))
         })
         .collect();
     group.bench_function("closest", |bencher| {

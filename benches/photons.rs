@@ -63,7 +63,7 @@ fn places(transport: &Arc<Transport>) -> Vec<Surface> {
     let others = run(transport, photons(20_000), 1).solution().photons;
     let place = |photon: &Photon| {
         let direction = Vec3A::from(photon.direction);
-        transport.meet(&Ray { origin: Vec3A::from(photon.position) - 0.01 * direction, direction })
+        transport.meet(&Ray::new(Vec3A::from(photon.position) - 0.01 * direction, direction))
     };
     let step = others.len() / QUERIES;
     others.iter().step_by(step).filter_map(place).take(QUERIES).collect()

@@ -196,7 +196,7 @@ impl EyeRays {
     /// The ray through a point in pixels, counted from the top left corner.
     pub fn through(&self, at: [f32; 2]) -> Ray {
         let direction = self.top_left + f64::from(at[0]) * self.right + f64::from(at[1]) * self.down;
-        Ray { origin: self.eye.as_vec3a(), direction: direction.normalize().as_vec3a() }
+        Ray::new(self.eye.as_vec3a(), direction.normalize().as_vec3a())
     }
 }
 

@@ -3,10 +3,10 @@
 #[path = "common/shapes.rs"]
 mod shapes;
 
-use glam::{Vec3, Vec3A};
+use glam::{Quat, Vec3, Vec3A};
 use lightwell::math::random::Stream;
 use lightwell::math::warp::{cosine_hemisphere, frame};
-use lightwell::tracer::{Ray, Tracer};
+use lightwell::tracer::{Ray, SurfacePoint, Tracer};
 use shapes::{Triangles, cube, placed, sphere};
 
 const SCALES: [f32; 3] = [1e-6, 1.0, 1e6];
@@ -17,7 +17,7 @@ fn tracer(triangles: &Triangles) -> Tracer {
 }
 
 fn toward(origin: Vec3, target: Vec3) -> Ray {
-    Ray { origin: origin.into(), direction: (target - origin).normalize().into() }
+    Ray::new(origin.into(), (target - origin).normalize().into())
 }
 
 /// A random point inside the unit ball, scaled and moved like the mesh.
@@ -65,7 +65,7 @@ fn no_ray_from_a_lifted_surface_point_leaves_a_closed_mesh_or_meets_its_own_tria
                 let point = a + weights.x * (b - a) + weights.y * (c - a);
                 let inward = -(b - a).cross(c - a).normalize();
                 let direction = frame(inward) * cosine_hemisphere(stream.uniform2());
-                let hit = tracer.closest(&Ray { origin: tracer.lift(point, inward), direction });
+                let hit = tracer.closest(&Ray::new(tracer.lift(point, inward), direction));
                 let hit = hit.unwrap_or_else(|| panic!("a ray left through {index} at scale {scale}"));
                 assert_ne!(hit.polygon as usize, index, "a ray met its own triangle at scale {scale}");
                 assert!(!hit.is_front, "a ray from inside met an outside at scale {scale}");
@@ -92,7 +92,7 @@ fn surfaces_a_hair_apart_block_each_other() {
             let outward = (b - a).cross(c - a).normalize();
             let origin = tracer.lift(a + weights.x * (b - a) + weights.y * (c - a), outward);
             let direction = frame(outward) * cosine_hemisphere(stream.uniform2());
-            let hit = tracer.closest(&Ray { origin, direction }).expect("the outer shell is closed");
+            let hit = tracer.closest(&Ray::new(origin, direction)).expect("the outer shell is closed");
             assert!(hit.polygon as usize >= inner.len() && !hit.is_front, "scale {scale}: {hit:?}");
             assert!(!tracer.is_visible(origin, origin + 4.0 * scale * direction));
         }
@@ -106,7 +106,7 @@ fn rays_along_the_axes_hit_with_either_sign_of_zero() {
         for direction in [axis, -axis] {
             for zero in [0.0_f32, -0.0] {
                 let direction = Vec3::from_array(direction.to_array().map(|x| if x == 0.0 { zero } else { x }));
-                let hit = tracer.closest(&Ray { origin: Vec3A::splat(0.01), direction: direction.into() });
+                let hit = tracer.closest(&Ray::new(Vec3A::splat(0.01), direction.into()));
                 let distance = hit.unwrap_or_else(|| panic!("no hit along {direction}")).distance;
                 assert!((distance - (1.0 - 0.01 * direction.element_sum())).abs() < 1e-5, "{direction}: {distance}");
             }
@@ -133,14 +133,14 @@ fn distance_and_visibility_agree_with_geometry() {
     let (from, to) = (Vec3A::new(0.1, 0.2, 0.3), Vec3A::new(-0.5, 0.7, -0.9));
     assert!(tracer.is_visible(from, to) && tracer.is_visible(from, from));
     assert!(!tracer.is_visible(from, Vec3A::new(0.1, 3.0, 0.3)));
-    let hit = tracer.closest(&Ray { origin: from, direction: Vec3A::Y }).expect("the top");
+    let hit = tracer.closest(&Ray::new(from, Vec3A::Y)).expect("the top");
     assert!((hit.distance - 0.8).abs() < 1e-6 && !hit.is_front);
 }
 
 #[test]
 fn an_empty_scene_stops_nothing() {
     let tracer = tracer(&Vec::new());
-    assert!(tracer.closest(&Ray { origin: Vec3A::ZERO, direction: Vec3A::X }).is_none());
+    assert!(tracer.closest(&Ray::new(Vec3A::ZERO, Vec3A::X)).is_none());
     assert!(tracer.is_visible(Vec3A::ZERO, Vec3A::ONE));
 }
 
@@ -157,6 +157,122 @@ fn a_limited_ray_meets_what_is_within_its_reach_and_nothing_beyond() {
                 assert_eq!(tracer.closest_within(&ray, reach).is_some(), is_met, "{scale} {distance} {reach}");
                 if distance < 1.0 {
                     assert_eq!(tracer.is_free(&ray, reach), !is_met, "{scale} {reach}");
+                }
+            }
+        }
+    }
+}
+
+/// A polygon of three or four corners.
+type Corners = Vec<Vec3>;
+
+/// A box from `low` to `high`, with its normals outwards, or inwards.
+fn block(low: Vec3, high: Vec3, faces_outwards: bool) -> Vec<Corners> {
+    let corner =
+        |i: usize| Vec3::from_array([0, 1, 2].map(|axis| if i >> axis & 1 == 0 { low[axis] } else { high[axis] }));
+    let faces = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]];
+    let turned = |face: [usize; 4]| if faces_outwards { [face[0], face[3], face[2], face[1]] } else { face };
+    faces.into_iter().map(|face| turned(face).map(corner).to_vec()).collect()
+}
+
+/// Two slopes that meet a floor at an acute edge, and gables: the inside of a closed roof of this height.
+fn attic(height: f32) -> Vec<Corners> {
+    let at = |x: f32, y: f32, z: f32| Vec3::new(x, y, z);
+    let [a, b, c, d] = [at(-1.0, 0.0, -1.0), at(1.0, 0.0, -1.0), at(1.0, 0.0, 1.0), at(-1.0, 0.0, 1.0)];
+    let [e, f] = [at(0.0, height, -1.0), at(0.0, height, 1.0)];
+    vec![vec![d, c, b, a], vec![a, e, f, d], vec![b, c, f, e], vec![a, b, e], vec![d, f, c]]
+}
+
+/// A tracer of polygons, turned, moved and scaled, and their normals.
+fn placed_tracer(polygons: &[Corners], turn: Quat, shift: Vec3, scale: f32) -> (Tracer, Vec<Vec3A>) {
+    let mut triangles = Vec::new();
+    let mut normals = Vec::new();
+    for (polygon, corners) in polygons.iter().enumerate() {
+        let corners: Vec<Vec3> = corners.iter().map(|&corner| scale * (turn * corner + shift)).collect();
+        for pair in corners[1..].windows(2) {
+            triangles.push((polygon as u32, [corners[0], pair[0], pair[1]]));
+        }
+        let [a, b, c] = [corners[0], corners[1], corners[2]].map(Vec3::as_dvec3);
+        normals.push((b - a).cross(c - a).normalize().as_vec3a());
+    }
+    (Tracer::new(&triangles), normals)
+}
+
+/// Walks at random from polygon to polygon, through those from `first_clear` on in one of two cases. Fails if a ray leaves.
+fn walk(name: &str, polygons: &[Corners], first_clear: usize, steps: usize) {
+    let height = 0.4 * polygons.iter().flatten().map(|corner| corner.y).fold(0.0, f32::max);
+    let mut stream = Stream::new(7, 0, polygons.len() as u64);
+    let turn = Quat::from_euler(glam::EulerRot::XYZ, 0.3, 1.1, -0.7);
+    let shift = Vec3::new(3.0, -5.0, 2.0);
+    for (turn, shift) in [(Quat::IDENTITY, Vec3::ZERO), (Quat::IDENTITY, shift), (turn, Vec3::ZERO), (turn, shift)] {
+        for scale in SCALES {
+            let (tracer, normals) = placed_tracer(polygons, turn, shift, scale);
+            let middle = scale * (turn * Vec3::new(0.02, height, 0.02) + shift);
+            let mut ray = Ray::new(middle.into(), Vec3A::new(0.3, -0.8, 0.2).normalize());
+            for step in 0..steps {
+                let Some(hit) = tracer.closest(&ray) else {
+                    panic!("{name}, scale {scale}, turned by {turn}, moved by {shift}: step {step} left: {ray:?}");
+                };
+                let normal = normals[hit.polygon as usize];
+                let facing = if hit.is_front { normal } else { -normal };
+                let crosses = hit.polygon as usize >= first_clear && stream.uniform() < 0.5;
+                let side = if crosses { -facing } else { facing };
+                let direction = frame(side) * cosine_hemisphere(stream.uniform2());
+                ray = Ray::leaving(hit.surface_point(), direction);
+            }
+        }
+    }
+}
+
+#[test]
+fn no_walk_leaves_a_closed_room_whatever_clear_things_touch_its_walls() {
+    let room = || block(Vec3::new(-1.0, 0.0, -1.0), Vec3::new(1.0, 2.0, 1.0), false);
+    for gap in [0.0, 1e-9, 1e-8, 6e-8, 1.2e-7, 2.4e-7, 1e-6, 3e-6, 1e-5, 1e-4, -6e-8, -1e-7, -1e-6, -1e-4] {
+        let mut polygons = room();
+        polygons.extend(block(Vec3::new(-0.5, gap, -0.5), Vec3::new(0.5, 0.6, 0.5), true));
+        walk(&format!("a body over the floor by {gap}"), &polygons, 6, 40_000);
+        let mut polygons = room();
+        polygons.push([[-0.5, -0.5], [-0.5, 0.5], [0.5, 0.5], [0.5, -0.5]].map(|[x, z]| Vec3::new(x, gap, z)).to_vec());
+        walk(&format!("a sheet over the floor by {gap}"), &polygons, 6, 40_000);
+        let mut polygons = room();
+        polygons.extend(block(Vec3::new(-1.0 + gap, gap, -0.5), Vec3::new(0.0, 0.6, 1.0 - gap), true));
+        polygons.extend(block(Vec3::new(-0.5, 0.6 + gap, -0.5), Vec3::new(0.5, 2.0 - gap, 0.5), true));
+        walk(&format!("bodies in a corner and on each other by {gap}"), &polygons, 6, 40_000);
+    }
+}
+
+#[test]
+fn no_walk_leaves_a_closed_room_through_its_edges() {
+    walk("a box", &block(Vec3::new(-1.0, 0.0, -1.0), Vec3::new(1.0, 2.0, 1.0), false), 6, 400_000);
+    for height in [1.0, 0.1, 0.01] {
+        walk(&format!("an attic of height {height}"), &attic(height), 5, 100_000);
+    }
+}
+
+#[test]
+fn points_of_surfaces_see_each_other_across_the_smallest_gap_and_not_through_what_lies_between() {
+    let square = |height: f32| {
+        [[-1.0, -1.0], [-1.0, 1.0], [1.0, 1.0], [1.0, -1.0]].map(|[x, z]| Vec3::new(x, height, z)).to_vec()
+    };
+    for gap in [1e-9, 1e-7, 1e-4] {
+        // A floor that faces up, a sheet, and a ceiling that faces down.
+        let ceiling: Corners = square(gap).into_iter().rev().collect();
+        let open = [square(0.0), ceiling.clone()];
+        let shut = [square(0.0), ceiling, square(0.5 * gap)];
+        for (polygons, is_open) in [(&open[..], true), (&shut[..], false)] {
+            let (tracer, _) = placed_tracer(polygons, Quat::IDENTITY, Vec3::ZERO, 1.0);
+            let mut stream = Stream::new(8, 0, 0);
+            for _ in 0..10_000 {
+                let [from, to] = [(0, 0.0), (1, gap)].map(|(polygon, height)| {
+                    let at = 1.8 * (stream.uniform2() - 0.5);
+                    SurfacePoint { point: Vec3A::new(at.x, height, at.y), polygon }
+                });
+                assert_eq!(tracer.is_unoccluded(from, to), is_open, "gap {gap}: {from:?} {to:?}");
+                let up = Ray::leaving(from, frame(Vec3A::Y) * cosine_hemisphere(stream.uniform2()));
+                let expected = if is_open { 1 } else { 2 };
+                // Rays that graze may pass below the edge of the ceiling.
+                if up.direction.y > 0.1 {
+                    assert_eq!(tracer.closest(&up).map(|hit| hit.polygon), Some(expected), "gap {gap}: {up:?}");
                 }
             }
         }

@@ -99,7 +99,7 @@ mod tests {
         let world = world("cornell-box");
         // Blocks have no bottoms: under one, the inside of its top is straight ahead.
         for at in spread(&world, 2_000) {
-            let ray = Ray { origin: world.tracer.lift(at.point, at.normal), direction: at.normal };
+            let ray = Ray::new(world.tracer.lift(at.point, at.normal), at.normal);
             let ahead = world.tracer.closest(&ray);
             assert!(at.normal.y < 0.9 || ahead.is_none_or(|hit| hit.is_front), "{at:?}");
         }

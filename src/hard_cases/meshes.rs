@@ -48,7 +48,7 @@ fn sliver(rows: &mut Rows) -> Result<(), Cancelled> {
     let lost = (0..50_000).filter(|_| {
         let eye = Vec3A::new(stream.uniform(), 0.1 + 0.8 * stream.uniform(), stream.uniform());
         let target = Vec3A::new((0.4 + 0.5 * WIDTH) as f32, 0.0, stream.uniform());
-        world.tracer.closest(&Ray { origin: eye, direction: (target - eye).normalize() }).is_none()
+        world.tracer.closest(&Ray::new(eye, (target - eye).normalize())).is_none()
     });
     let guard = "a triangle is missed only if its area as the ray sees it is exactly 0";
     rows.check("rays at the sliver that fall through", lost.count() as f64, exactly(0.0), guard);

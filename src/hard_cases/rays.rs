@@ -93,11 +93,11 @@ fn leaving(corners: &[DVec3; 3], tracer: &Tracer, stream: &mut Stream) -> Ray {
     let normal = (b - a).cross(c - a).normalize();
     let weights = triangle(stream.uniform2());
     let point = a + weights.x * (b - a) + weights.y * (c - a);
-    Ray { origin: tracer.lift(point, normal), direction: frame(normal) * cosine_hemisphere(stream.uniform2()) }
+    Ray::new(tracer.lift(point, normal), frame(normal) * cosine_hemisphere(stream.uniform2()))
 }
 
 fn toward(origin: Vec3, target: Vec3) -> Ray {
-    Ray { origin: origin.into(), direction: (target - origin).normalize().into() }
+    Ray::new(origin.into(), (target - origin).normalize().into())
 }
 
 fn shared_edges(rows: &mut Rows) -> Result<(), Cancelled> {
@@ -167,7 +167,7 @@ fn axis_rays(rows: &mut Rows) -> Result<(), Cancelled> {
         let zero = if random & 1 == 0 { 0.0 } else { -0.0 };
         let axis = axes[(random >> 8) as usize % 6];
         let direction = Vec3A::from_array(axis.to_array().map(|x| if x == 0.0 { zero } else { x }));
-        tracer.closest(&Ray { origin: point_of_cube(&mut stream).into(), direction }).is_none()
+        tracer.closest(&Ray::new(point_of_cube(&mut stream).into(), direction)).is_none()
     });
     let guard = "adding 0 turns −0 into +0 before the boxes take its sign";
     rows.check("rays along the axes that are lost", lost.count() as f64, exactly(0.0), guard);

@@ -3,10 +3,10 @@
 use super::cost::Cost;
 use super::transport::{Surface, Transport};
 use crate::effects::Effect;
-use glam::Vec3A;
+use crate::tracer::SurfacePoint;
 
-/// Whether nothing stands between a surface and a point that is lifted off its own, as far as shadows are simulated.
-pub fn is_lit(transport: &Transport, surface: &Surface, point: Vec3A, cost: &mut Cost) -> bool {
+/// Whether nothing stands between a surface and a point of another, as far as shadows are simulated.
+pub fn is_lit(transport: &Transport, surface: &Surface, point: SurfacePoint, cost: &mut Cost) -> bool {
     if transport.effects.contains(Effect::Shadows) {
         cost.spend(Effect::Shadows, 1);
         transport.sees(surface, point)

@@ -54,7 +54,7 @@ pub fn pick_photon(world: &World, photons: &[Photon], frame: &Frame, at: [f32; 2
 /// Whether nothing hides a photon from the eye, and the side on which it landed faces it.
 fn is_seen(world: &World, eye: DVec3, photon: &Photon) -> bool {
     let way = photon.position.as_dvec3() - eye;
-    let ray = Ray { origin: eye.as_vec3a(), direction: way.normalize_or_zero().as_vec3a() };
+    let ray = Ray::new(eye.as_vec3a(), way.normalize_or_zero().as_vec3a());
     let Some(Seen { hit, point, .. }) = seen_along(world, ray) else { return false };
     let behind = way.length() as f32 - (eye.as_vec3a() - point).length();
     let is_on_front = photon.side.is_multiple_of(2);

@@ -34,7 +34,7 @@ pub fn seconds_per_ray(world: &World) -> f64 {
         let origin = middle(&polygons[stream.bits() as usize % polygons.len()]);
         let towards = (Vec3A::from(world.bounds.center()) - origin).normalize_or(Vec3A::Y);
         let direction = frame(towards) * cosine_hemisphere(stream.uniform2());
-        world.tracer.closest(&Ray { origin: world.tracer.lift(origin, towards), direction }).is_some()
+        world.tracer.closest(&Ray::new(world.tracer.lift(origin, towards), direction)).is_some()
     };
     let round = |_| {
         let start = Instant::now();

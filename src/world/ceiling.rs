@@ -31,7 +31,7 @@ fn newest_center(scene: &Scene) -> Vec3A {
 /// The height at which the solid round a point ends below it, m; `None` if the point is in the open. In a solid one sees
 /// only backs.
 fn underside_of_solid(tracer: &Tracer, point: Vec3A) -> Option<f32> {
-    let look = |direction: Vec3A| tracer.closest(&Ray { origin: point, direction }).filter(|hit| !hit.is_front);
+    let look = |direction: Vec3A| tracer.closest(&Ray::new(point, direction)).filter(|hit| !hit.is_front);
     look(Vec3A::Y)?;
     look(Vec3A::NEG_Y).map(|hit| point.y - hit.distance)
 }

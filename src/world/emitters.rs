@@ -54,7 +54,7 @@ fn open_view(scene: &Scene, surfaces: &Surfaces, tracer: &Tracer, side: usize, e
     let near = NEAR * (surfaces.area(side) as f32).sqrt();
     let mut stream = Stream::new(0, LOOK_PASS, side as u64);
     let open = (0..LOOKS).filter(|_| {
-        let from = surfaces.place(side, tracer, &mut stream);
+        let from = surfaces.place(side, &mut stream);
         surfaces.bounce(&from, tracer, &mut stream).is_some_and(|place| {
             let material = &scene.materials[scene.polygons[place.side / 2].material as usize];
             (emitters_count || !material.is_emitter()) && from.point.distance(place.point) > near
@@ -96,7 +96,7 @@ fn wall_behind(surfaces: &Surfaces, walls: &Tracer, front: usize, tolerance: f32
     let center = corners.iter().sum::<Vec3A>() / corners.len() as f32;
     let normal = surfaces.normal(front);
     let distance = tolerance + walls.offset();
-    let hit = walls.closest(&Ray { origin: center + distance * normal, direction: -normal })?;
+    let hit = walls.closest(&Ray::new(center + distance * normal, -normal))?;
     let (wall, wall_normal) = (hit.polygon as usize, surfaces.normal(side_index(hit.polygon, true)));
     let on_wall = surfaces.corners_of(wall)[0];
     let is_in_plane = corners.iter().all(|&corner| (corner - on_wall).dot(wall_normal).abs() <= tolerance);
@@ -122,7 +122,7 @@ pub fn hidden(scene: &Scene, surfaces: &Surfaces, tracer: &Tracer) -> Vec<Findin
     let sees_nothing = |side: &usize| {
         let mut stream = Stream::new(1, LOOK_PASS, *side as u64);
         !(0..LOOKS).any(|_| {
-            let from = surfaces.place(*side, tracer, &mut stream);
+            let from = surfaces.place(*side, &mut stream);
             surfaces.bounce(&from, tracer, &mut stream).is_some()
         })
     };

@@ -18,7 +18,7 @@ const INSET: f32 = 0.02;
 /// Whether a point, lifted off a surface with this normal, is where light cannot be: straight ahead is a side that
 /// nothing reaches. From a point that light reaches, no such side can be seen.
 pub fn is_covered(mesh: &Mesh, tracer: &Tracer, point: Vec3A, normal: Vec3A) -> bool {
-    let ahead = tracer.closest(&Ray { origin: point, direction: normal });
+    let ahead = tracer.closest(&Ray::new(point, normal));
     ahead.is_some_and(|hit| mesh.side(hit.polygon, hit.is_front).is_none())
 }
 

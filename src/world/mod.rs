@@ -31,6 +31,9 @@ const TOUCHING: f32 = 4e-4;
 /// A point lies on a surface that is nearer than this share of the scene's radius.
 const ON_SURFACE: f32 = 1e-3;
 
+/// So many surfaces one behind the other are looked at for the one that a point lies on.
+const MOST_STACKED: usize = 256;
+
 /// Where an automatic mesh must be finer than usual, because the scene has many polygons.
 const ELEMENTS_PER_POLYGON: f64 = 4.0;
 
@@ -133,13 +136,27 @@ impl World {
         self.escape_share == 0.0
     }
 
-    /// Where a ray towards a point of a surface, against the unit `normal` of the side that is meant, meets that surface;
-    /// `None` where there is none. The ray that met it comes with it.
-    pub fn meet_at(&self, point: Vec3A, normal: Vec3A) -> Option<(Ray, Hit)> {
+    /// The side nearest to a point among those that face along the unit `normal`, up to a thousandth of the scene's radius
+    /// before or behind the point along the normal; `None` where there is none. Of surfaces that coincide, the one whose
+    /// front faces along the normal.
+    pub fn meet_at(&self, point: Vec3A, normal: Vec3A) -> Option<Hit> {
         let reach = ON_SURFACE * self.bounds.radius();
-        let ray = Ray { origin: point + reach * normal, direction: -normal };
-        let hit = self.tracer.closest(&ray)?;
-        (hit.distance <= 2.0 * reach).then_some((ray, hit))
+        let mut ray = Ray::new(point + reach * normal, -normal);
+        let distance = |hit: &Hit| (hit.point - point).dot(normal).abs();
+        let mut nearest: Option<Hit> = None;
+        for _ in 0..MOST_STACKED {
+            let left = reach + (ray.origin - point).dot(normal);
+            let Some(hit) = self.tracer.closest_within(&ray, left) else { break };
+            let is_nearer = |nearest: Hit| {
+                let gain = distance(&nearest) - distance(&hit);
+                gain > self.tracer.offset() || (gain.abs() <= self.tracer.offset() && hit.is_front)
+            };
+            if nearest.is_none_or(is_nearer) {
+                nearest = Some(hit);
+            }
+            ray = Ray::leaving(hit.surface_point(), -normal);
+        }
+        nearest
     }
 
     /// The same scene cut differently; costs only the new mesh.

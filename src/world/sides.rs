@@ -153,7 +153,7 @@ fn light_walk(index: usize, walks: usize, emitters: &[usize], surfaces: &Surface
     let start = if emitters.is_empty() {
         first_seen(surfaces, tracer, eye, &mut stream)
     } else {
-        Some(surfaces.place(emitters[index % emitters.len()], tracer, &mut stream))
+        Some(surfaces.place(emitters[index % emitters.len()], &mut stream))
     };
     let mut walk = Walk { places: start.into_iter().collect(), escaped: false };
     while let Some(last) = walk.places.last().filter(|_| walk.places.len() <= bounces) {
@@ -173,13 +173,12 @@ fn first_seen(surfaces: &Surfaces, tracer: &Tracer, eye: Vec3, stream: &mut Stre
     if surfaces.len() == 0 {
         return None;
     }
-    let aim = surfaces.place(2 * (stream.bits() % surfaces.len() as u64) as usize, tracer, stream);
+    let aim = surfaces.place(2 * (stream.bits() % surfaces.len() as u64) as usize, stream);
     let origin = Vec3A::from(eye);
     let direction = (aim.point - origin).try_normalize()?;
-    let hit = tracer.closest(&Ray { origin, direction })?;
+    let hit = tracer.closest(&Ray::new(origin, direction))?;
     let side = side_index(hit.polygon, hit.is_front);
-    let normal = surfaces.normal(side);
-    Some(Place { side, point: tracer.lift(origin + hit.distance * direction, normal), normal })
+    Some(Place { side, point: hit.point, normal: surfaces.normal(side) })
 }
 
 /// Whether a walk from one of these sides comes in sight of a place where light has been.
@@ -193,7 +192,7 @@ fn finds_light(
 ) -> bool {
     (0..walks).any(|walk| {
         let mut stream = Stream::new(walk as u64, SHELL_PASS, shell as u64);
-        let mut place = surfaces.place(sides[walk % sides.len()], tracer, &mut stream);
+        let mut place = surfaces.place(sides[walk % sides.len()], &mut stream);
         for _ in 0..SHELL_BOUNCES {
             if sees_light(&place, light, tracer, &mut stream) {
                 return true;
@@ -211,7 +210,7 @@ fn finds_light(
 fn finds_sky(sides: &[usize], shell: usize, walks: usize, surfaces: &Surfaces, tracer: &Tracer) -> bool {
     (0..walks).any(|walk| {
         let mut stream = Stream::new(walk as u64, SKY_PASS, shell as u64);
-        let mut place = surfaces.place(sides[walk * sides.len() / walks], tracer, &mut stream);
+        let mut place = surfaces.place(sides[walk * sides.len() / walks], &mut stream);
         for _ in 0..SHELL_BOUNCES {
             match surfaces.bounce(&place, tracer, &mut stream) {
                 Some(next) => place = next,
@@ -233,7 +232,7 @@ fn sees_light(place: &Place, light: &[Place], tracer: &Tracer, stream: &mut Stre
 fn looks_at_something(side: usize, light: &[Place], surfaces: &Surfaces, tracer: &Tracer) -> bool {
     let mut stream = Stream::new(0, LOOK_PASS, side as u64);
     (0..LOOKS).any(|_| {
-        let place = surfaces.place(side, tracer, &mut stream);
+        let place = surfaces.place(side, &mut stream);
         surfaces.bounce(&place, tracer, &mut stream).is_some() || sees_light(&place, light, tracer, &mut stream)
     })
 }
@@ -243,8 +242,8 @@ fn looks_at_something(side: usize, light: &[Place], surfaces: &Surfaces, tracer:
 fn has_room(side: usize, near: f32, surfaces: &Surfaces, tracer: &Tracer) -> bool {
     let mut stream = Stream::new(1, LOOK_PASS, side as u64);
     (0..LOOKS).any(|_| {
-        let place = surfaces.place(side, tracer, &mut stream);
-        let ahead = tracer.closest(&Ray { origin: place.point, direction: place.normal });
+        let place = surfaces.place(side, &mut stream);
+        let ahead = tracer.closest(&Ray::leaving(place.surface_point(), place.normal));
         ahead.is_none_or(|hit| hit.distance > near)
     })
 }

@@ -5,7 +5,7 @@ use crate::math::random::Stream;
 use crate::math::warp::{cosine_hemisphere, frame};
 use crate::mesh::{Region, side_index};
 use crate::scene::{Polygon, Scene};
-use crate::tracer::{Ray, Tracer};
+use crate::tracer::{Ray, SurfacePoint, Tracer};
 use glam::{DVec3, Vec3, Vec3A};
 
 /// What the exploration of a scene needs to know of each polygon.
@@ -25,7 +25,6 @@ const MOST_CLEAR: usize = 16;
 pub struct Place {
     /// Index as in [`crate::mesh::Mesh::sides`].
     pub side: usize,
-    /// Lifted off the surface.
     pub point: Vec3A,
     /// On the side's own side.
     pub normal: Vec3A,
@@ -74,36 +73,39 @@ impl Surfaces {
         self.facing[side / 2].1
     }
 
-    /// A random place on a side, off the surface by the tracer's offset. Every part of the side can come up.
-    pub fn place(&self, side: usize, tracer: &Tracer, stream: &mut Stream) -> Place {
-        let normal = self.normal(side);
-        let points = self.regions[side / 2].sampler(tracer.offset() * normal);
-        Place { side, point: points.point(stream.uniform2()), normal }
+    /// A random place on a side, a little off its edges. Every other part of the side can come up.
+    pub fn place(&self, side: usize, stream: &mut Stream) -> Place {
+        let points = self.regions[side / 2].sampler(Vec3A::ZERO);
+        Place { side, point: points.point(stream.uniform2()), normal: self.normal(side) }
     }
 
     /// Where a cosine-distributed ray from a place arrives; `None` if it leaves the scene. It goes through every other clear
     /// surface in its way, unbent: what glass lights is lit by way of it, wherever exactly.
     pub fn bounce(&self, from: &Place, tracer: &Tracer, stream: &mut Stream) -> Option<Place> {
         let direction = frame(from.normal) * cosine_hemisphere(stream.uniform2());
-        let mut origin = from.point;
+        let mut start = from.surface_point();
         for _ in 0..MOST_CLEAR {
-            let hit = tracer.closest(&Ray { origin, direction })?;
-            let side = side_index(hit.polygon, hit.is_front);
-            let normal = self.normal(side);
-            let point = origin + hit.distance * direction;
+            let hit = tracer.closest(&Ray::leaving(start, direction))?;
             if !self.is_clear[hit.polygon as usize] || stream.uniform() < 0.5 {
-                return Some(Place { side, point: tracer.lift(point, normal), normal });
+                let side = side_index(hit.polygon, hit.is_front);
+                return Some(Place { side, point: hit.point, normal: self.normal(side) });
             }
-            origin = tracer.lift(point, -normal);
+            start = hit.surface_point();
         }
         None
     }
 }
 
 impl Place {
+    pub fn surface_point(&self) -> SurfacePoint {
+        SurfacePoint { point: self.point, polygon: (self.side / 2) as u32 }
+    }
+
     /// Whether the two places face each other with nothing between them.
     pub fn sees(&self, other: &Place, tracer: &Tracer) -> bool {
         let way = other.point - self.point;
-        way.dot(self.normal) > 0.0 && way.dot(other.normal) < 0.0 && tracer.is_visible(self.point, other.point)
+        way.dot(self.normal) > 0.0
+            && way.dot(other.normal) < 0.0
+            && tracer.is_unoccluded(self.surface_point(), other.surface_point())
     }
 }

@@ -143,6 +143,6 @@ fn rays(view: &Viewpoint) -> impl Iterator<Item = Ray> + use<> {
     (0..GRID * GRID).map(move |i| {
         let at = |k: usize| half * (2.0 * (k as f32 + 0.5) / GRID as f32 - 1.0);
         let direction = forward + at(i % GRID) * right + at(i / GRID) * up;
-        Ray { origin: eye, direction: direction.normalize().into() }
+        Ray::new(eye, direction.normalize().into())
     })
 }

@@ -73,7 +73,7 @@ fn settings(rays: u32, range: Range, falloff: Falloff) -> OcclusionSettings {
 
 /// What arrives at the first surface below or beside a point.
 fn at(transport: &Arc<Transport>, eye: Vec3, towards: Vec3, settings: &OcclusionSettings, seed: u32) -> Visibility {
-    let surface = transport.meet(&Ray { origin: eye.into(), direction: Vec3A::from(towards.normalize()) });
+    let surface = transport.meet(&Ray::new(eye.into(), Vec3A::from(towards.normalize())));
     let surface = surface.expect("a surface");
     AmbientOcclusion::new(transport.clone(), settings).visibility(&surface, |i| sobol2(i, 0, seed))
 }

@@ -84,7 +84,7 @@ fn direct(transport: &Transport, surface: &Surface, bsdf: &Bsdf, stream: &mut St
     let way: Vec3A = lamp.point - surface.point;
     let (square, direction) = (way.length_squared(), way.normalize());
     let cosine = -direction.dot(lamp.normal);
-    if cosine <= 0.0 || lamp.polygon == surface.polygon || !transport.sees(surface, lamp.point) {
+    if cosine <= 0.0 || lamp.polygon == surface.polygon || !transport.sees(surface, lamp.surface_point()) {
         return Rgb::ZERO;
     }
     lamp.radiance * bsdf.value(direction)[0] * cosine / (square * lamp.density)

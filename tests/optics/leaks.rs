@@ -14,7 +14,7 @@ const MTL: &str = "newmtl mixed\nKd 0.3 0.3 0.3\nKs 0.5 0.5 0.5\nNs 3\nnewmtl mi
 fn ray_from_outside(stream: &mut Stream) -> Ray {
     let mut unit = || (Vec3A::from((stream.uniform2() - 0.5).extend(stream.uniform() - 0.5))).normalize();
     let (eye, target) = (3.0 * unit(), 0.98 * unit());
-    Ray { origin: eye, direction: (target - eye).normalize() }
+    Ray::new(eye, (target - eye).normalize())
 }
 
 /// An octahedron and a ball of 32 faces, whose normals are up to 55° and 30° off.

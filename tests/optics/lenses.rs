@@ -13,7 +13,7 @@ fn glass(name: &str, index: f64) -> String {
 
 /// A ray along x at this distance from the axis, before everything.
 fn ray_at(offset: Vec2) -> Ray {
-    Ray { origin: Vec3A::new(-3.0, offset.x, offset.y), direction: Vec3A::X }
+    Ray::new(Vec3A::new(-3.0, offset.x, offset.y), Vec3A::X)
 }
 
 /// What is left of a ray after `surfaces` boundaries.

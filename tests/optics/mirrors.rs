@@ -21,7 +21,7 @@ fn rays_to_the_image_of_a_lamp_meet_the_lamp() {
         let at = 1.4 * stream.uniform2() - 0.2;
         let lamp = Vec3A::new(1.0 + at.x, 2.0, 0.6 * at.y);
         let image = lamp * Vec3A::new(1.0, -1.0, 1.0);
-        let ray = Ray { origin: eye, direction: (image - eye).normalize() };
+        let ray = Ray::new(eye, (image - eye).normalize());
         let mirror = transport.meet(&ray).expect("the mirror");
         assert_eq!(mirror.polygon, 0);
         let bsdf = transport.bsdf(&mirror, -ray.direction, &Media::default());

@@ -54,7 +54,7 @@ fn no_material_can_be_seen_in_a_furnace() {
         let from_a_corner = |stream: &mut Stream| {
             let target = Vec3A::splat(0.5) + 0.6 * (Vec3A::from((stream.uniform2(), stream.uniform())) - 0.5);
             let origin = Vec3A::splat(0.05);
-            Ray { origin, direction: (target - origin).normalize() }
+            Ray::new(origin, (target - origin).normalize())
         };
         let found = radiance(&transport, 200_000, from_a_corner);
         println!("{material}: {found:?}");
@@ -75,7 +75,7 @@ fn gloss_reflects_what_its_lobe_keeps_of_an_even_light() {
     ] {
         let transport = scene(&unit_box(["even", "even", material, "even", "even", "even"]), MTL);
         let origin = Vec3A::new(0.5, 0.0, 0.5) - direction * 0.3;
-        let found = radiance(&transport, 40_000, |_| Ray { origin, direction });
+        let found = radiance(&transport, 40_000, |_| Ray::new(origin, direction));
         // The grazing ray comes in at 1e-3 above the horizon, which changes the lobe by about as much.
         for (channel, expected) in found.iter().zip(expected.as_dvec3().to_array()) {
             let miss = (channel.mean() - expected).abs();

@@ -73,7 +73,7 @@ fn scene(parts: &[String]) -> Arc<Transport> {
 
 /// The glass of this body, seen from outside along a ray from above.
 fn inside_of(transport: &Transport, height: f32, media: Media) -> Media {
-    let down = Ray { origin: Vec3A::new(0.01, height, 0.02), direction: Vec3A::NEG_Y };
+    let down = Ray::new(Vec3A::new(0.01, height, 0.02), Vec3A::NEG_Y);
     media.across(&transport.meet(&down).expect("a surface"))
 }
 

@@ -44,7 +44,7 @@ fn run_to_end(transport: &Arc<Transport>, photons: PhotonSettings) -> PhotonMapp
 
 /// The surface that a ray meets.
 fn meet(transport: &Transport, origin: impl Into<Vec3A>, direction: impl Into<Vec3A>) -> Surface {
-    let ray = Ray { origin: origin.into(), direction: direction.into().normalize() };
+    let ray = Ray::new(origin.into(), direction.into().normalize());
     transport.meet(&ray).expect("a surface")
 }
 

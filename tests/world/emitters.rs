@@ -66,7 +66,7 @@ fn a_lamp_that_shines_up_under_a_ceiling_is_turned() {
     assert_eq!(kinds(&world), [FindingKind::EmitterTurned]);
     assert!(world.scene.findings[0].subject.contains("lamp"), "{}", world.scene.findings[0]);
     assert_eq!(lamp_front(&world).normal, Vec3::NEG_Y);
-    let up = Ray { origin: Vec3A::new(0.5, 0.1, 0.5), direction: Vec3A::Y };
+    let up = Ray::new(Vec3A::new(0.5, 0.1, 0.5), Vec3A::Y);
     assert!(world.tracer.closest(&up).is_some_and(|hit| hit.is_front), "rays meet what is drawn");
     assert_lit(world, expected_irradiance(0.99));
 }

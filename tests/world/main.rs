@@ -77,7 +77,7 @@ fn assert_meshed(world: &World, object: &str, should_be: impl Fn(&Side) -> bool)
 fn element_at(world: &World, point: Vec3, normal: Vec3) -> usize {
     let point = Vec3A::from(point);
     let origin = point + Vec3A::from(normal) * 1e-3 * world.bounds.radius();
-    let ray = lightwell::tracer::Ray { origin, direction: -Vec3A::from(normal) };
+    let ray = lightwell::tracer::Ray::new(origin, -Vec3A::from(normal));
     let hit = world.tracer.closest(&ray).expect("a surface");
     world.mesh.locate(hit.polygon, hit.is_front, point).expect("a meshed side").element as usize
 }

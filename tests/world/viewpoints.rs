@@ -23,7 +23,7 @@ fn ball(radius: f32, center: Vec3) -> Triangles {
 /// What the middle of the picture shows: whether it is a meshed side, and how far away.
 fn first_sight(world: &World) -> (bool, f32) {
     let view = world.viewpoint;
-    let ray = Ray { origin: view.eye.into(), direction: Vec3A::from(view.target - view.eye).normalize() };
+    let ray = Ray::new(view.eye.into(), Vec3A::from(view.target - view.eye).normalize());
     let hit = world.tracer.closest(&ray).expect("the scene is in sight");
     (world.mesh.side(hit.polygon, hit.is_front).is_some(), hit.distance)
 }

@@ -63,8 +63,6 @@ impl AmbientOcclusion {
     fn mean(&self, surface: &Surface, around: Mat3A, directions: impl Iterator<Item = Vec3A>) -> Visibility {
         let tracer = &self.transport.world.tracer;
         let reach = self.falloff.reach(self.range);
-        // All rays that count start on the side of the surface that was met.
-        let origin = tracer.lift(surface.point, surface.facing);
         let is_all_or_nothing = self.falloff.is_all_or_nothing(self.range);
         let free_share = |ray: &Ray| {
             if is_all_or_nothing {
@@ -77,7 +75,7 @@ impl AmbientOcclusion {
         for direction in directions {
             let direction = around * direction;
             if direction.dot(surface.facing) > 0.0 {
-                let free = free_share(&Ray { origin, direction });
+                let free = free_share(&Ray::leaving(surface.surface_point(), direction));
                 sum += free;
                 bent_normal += free * direction;
             }

@@ -30,7 +30,7 @@ pub fn random(transport: &Transport, surface: &Surface, bsdf: &Bsdf, tools: &mut
 fn from_point(transport: &Transport, surface: &Surface, bsdf: &Bsdf, lamp: &LampPoint, tools: &mut Tools<'_>) -> Rgb {
     let Some(arrival) = lamp.arrival(surface) else { return Rgb::ZERO };
     let [diffuse, _] = bsdf.value(arrival.direction);
-    if diffuse == Rgb::ZERO || !is_lit(transport, surface, lamp.point, tools.cost) {
+    if diffuse == Rgb::ZERO || !is_lit(transport, surface, lamp.surface_point(), tools.cost) {
         return Rgb::ZERO;
     }
     diffuse * arrival.radiance

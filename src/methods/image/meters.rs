@@ -35,7 +35,7 @@ impl Meters {
     pub fn new(sources: &Sources, view: CameraView, surfaces: Vec<Surface>, settings: &Settings) -> Option<Self> {
         let light = sources.light(view, settings)?;
         let transport = &sources.transport;
-        let place = |surface: Surface| (surface, transport.media_at(transport.leave(&surface, surface.facing).origin));
+        let place = |surface: Surface| (surface, transport.media_beside(surface.surface_point(), surface.facing));
         let places: Vec<_> = surfaces.into_iter().map(place).collect();
         let channels = vec![[Moments::default(); 3]; places.len()];
         Some(Self { light, places, channels, samples: 0, seed: settings.seed, cost: Cost::default() })

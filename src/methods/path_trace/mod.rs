@@ -184,7 +184,7 @@ impl PathTracer {
                 value += share * of_lobe;
             }
         }
-        if value == Rgb::ZERO || !is_lit(&self.transport, &vertex.surface, lamp.point, cost) {
+        if value == Rgb::ZERO || !is_lit(&self.transport, &vertex.surface, lamp.surface_point(), cost) {
             return Rgb::ZERO;
         }
         value * arrival.radiance

@@ -8,6 +8,7 @@ use crate::math::stats::Moments;
 use crate::methods::cost::Cost;
 use crate::methods::transport::{Media, Surface, Transport};
 use crate::solution::PathMatcher;
+use crate::tracer::SPACE;
 use glam::Vec3A;
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -29,14 +30,13 @@ impl Sensor {
         let surface = transport.surface_at(point, normal).unwrap_or_else(|| in_the_air(point, normal));
         // What arrives at the polygon, and not at the smooth surface that it stands for.
         let surface = Surface { normal: surface.facing, ..surface };
-        let off = transport.leave(&surface, surface.facing).origin;
-        Self { surface, media: transport.media_at(off) }
+        Self { surface, media: transport.media_beside(surface.surface_point(), surface.facing) }
     }
 }
 
 /// A light meter: there is no polygon of this index, nor a material, and none is asked for where irradiance is found.
 fn in_the_air(point: Vec3A, normal: Vec3A) -> Surface {
-    Surface { polygon: u32::MAX, is_front: true, distance: 0.0, point, facing: normal, normal, material: u32::MAX }
+    Surface { polygon: SPACE, is_front: true, distance: 0.0, point, facing: normal, normal, material: u32::MAX }
 }
 
 /// Irradiance at sensors by path tracing, in the making: plain state and a step.

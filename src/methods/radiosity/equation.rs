@@ -118,7 +118,7 @@ fn first_between(world: &World, from: Vec3A, to: Vec3A, counts: impl Fn(&Hit) ->
     let direction = (to - from).normalize_or_zero();
     let mut origin = from;
     while left > 0.0 {
-        let Some(hit) = world.tracer.closest_within(&Ray { origin, direction }, left) else { break };
+        let Some(hit) = world.tracer.closest_within(&Ray::new(origin, direction), left) else { break };
         if counts(&hit) {
             return Visibility::Blocked { polygon: hit.polygon, at: (origin + hit.distance * direction).into() };
         }

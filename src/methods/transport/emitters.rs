@@ -5,7 +5,7 @@ use crate::math::random::{hash, sobol2};
 use crate::math::rgb::{Rgb, Rgb64, total};
 use crate::math::warp::{cosine_hemisphere, frame};
 use crate::mesh::{Region, Sampler};
-use crate::tracer::Ray;
+use crate::tracer::{Ray, SurfacePoint};
 use crate::world::World;
 use glam::{Vec2, Vec3A};
 use std::f64::consts::PI;
@@ -49,7 +49,6 @@ pub struct Emission {
 /// A point of an emitter, chosen with a known density.
 #[derive(Clone, Copy, Debug)]
 pub struct LampPoint {
-    /// Lifted off the surface.
     pub point: Vec3A,
     /// Unit normal of the front.
     pub normal: Vec3A,
@@ -72,6 +71,11 @@ pub struct Arrival {
 }
 
 impl LampPoint {
+    /// Where shadow rays end.
+    pub fn surface_point(&self) -> SurfacePoint {
+        SurfacePoint { point: self.point, polygon: self.polygon }
+    }
+
     /// `None` where the place is behind the emitter, or a part of it.
     pub fn arrival(&self, surface: &Surface) -> Option<Arrival> {
         let way = self.point - surface.point;
@@ -103,7 +107,7 @@ impl Emitters {
                 let region = Region::new([corners[0], corners[1], corners[2], corners[2]], 3);
                 let [a, b, c] = corners.map(|corner| corner.as_dvec3());
                 lamps.push(Lamp {
-                    points: region.sampler(world.tracer.offset() * normal),
+                    points: region.sampler(Vec3A::ZERO),
                     normal,
                     polygon: index as u32,
                     media: Media::default(),
@@ -124,10 +128,11 @@ impl Emitters {
         Self { lamps, cumulative, flux }
     }
 
-    /// Finds out which glass each emitter is in; `media_at` knows it of a point.
-    pub fn place_in_media(&mut self, media_at: impl Fn(Vec3A) -> Media) {
+    /// Finds out which glass each emitter is in; `media_beside` knows it of a point of a side.
+    pub fn place_in_media(&mut self, media_beside: impl Fn(SurfacePoint, Vec3A) -> Media) {
         for lamp in &mut self.lamps {
-            lamp.media = media_at(lamp.points.point(Vec2::splat(0.5)));
+            let middle = SurfacePoint { point: lamp.points.point(Vec2::splat(0.5)), polygon: lamp.polygon };
+            lamp.media = media_beside(middle, lamp.normal);
         }
     }
 
@@ -149,9 +154,9 @@ impl Emitters {
         let place = (index % SEQUENCE) as u32;
         let lamp = self.choose(f64::from(sobol2(place, 2, sequence).x))?;
         let direction = frame(lamp.normal) * cosine_hemisphere(sobol2(place, 1, sequence));
-        let origin = lamp.points.point(sobol2(place, 0, sequence));
+        let from = SurfacePoint { point: lamp.points.point(sobol2(place, 0, sequence)), polygon: lamp.polygon };
         let flux = lamp.flux() / (lamp.chance * count as f64);
-        Some(Emission { ray: Ray { origin, direction }, flux: flux.as_vec3(), media: lamp.media })
+        Some(Emission { ray: Ray::leaving(from, direction), flux: flux.as_vec3(), media: lamp.media })
     }
 
     /// A point of an emitter, for numbers in [0, 1): emitters in proportion to their flux, points evenly over each. `None`

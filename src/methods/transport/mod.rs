@@ -20,7 +20,7 @@ use crate::effects::{Effect, Effects, Switches};
 use crate::math::polygon::vector_area;
 use crate::math::rgb::Rgb;
 use crate::scene::{Lobes, Material};
-use crate::tracer::{Hit, Ray};
+use crate::tracer::{Hit, Ray, SurfacePoint};
 use crate::world::World;
 use glam::{DVec3, Vec3, Vec3A};
 use std::sync::Arc;
@@ -79,7 +79,7 @@ impl Transport {
         let has_glass = scene.materials.iter().any(Material::is_glass);
         let mut transport = Self { effects, looks, facets, emitters, has_glass, world };
         let mut emitters = std::mem::take(&mut transport.emitters);
-        emitters.place_in_media(|point| transport.media_at(point));
+        emitters.place_in_media(|from, facing| transport.media_beside(from, facing));
         Self { emitters, ..transport }
     }
 
@@ -89,19 +89,17 @@ impl Transport {
 
     /// The first surface along a ray.
     pub fn meet(&self, ray: &Ray) -> Option<Surface> {
-        Some(self.surface_hit(ray, &self.world.tracer.closest(ray)?))
+        Some(self.surface_hit(&self.world.tracer.closest(ray)?))
     }
 
-    fn surface_hit(&self, ray: &Ray, hit: &Hit) -> Surface {
-        let along = ray.origin + hit.distance * ray.direction;
-        Surface { distance: hit.distance, ..self.surface_on(hit.polygon, hit.is_front, along) }
+    fn surface_hit(&self, hit: &Hit) -> Surface {
+        Surface { distance: hit.distance, ..self.surface_on(hit.polygon, hit.is_front, hit.point) }
     }
 
     /// The surface at a point of a side of a polygon, as a ray meets it that comes from there.
     pub fn surface_on(&self, polygon: u32, is_front: bool, point: Vec3A) -> Surface {
         let Facet { normal, origin } = self.facets[polygon as usize];
         let facing = if is_front { normal } else { -normal };
-        // A long ray rounds more than a lift off the surface makes good: back onto the plane.
         let point = point - facing * (point - origin).dot(facing);
         let shading = self.world.scene.shading_normal(polygon as usize, point.into());
         Surface {
@@ -117,8 +115,7 @@ impl Transport {
 
     /// The surface at a point, seen from the side that the unit `normal` faces; `None` where there is none.
     pub fn surface_at(&self, point: Vec3A, normal: Vec3A) -> Option<Surface> {
-        let (ray, hit) = self.world.meet_at(point, normal)?;
-        Some(self.surface_hit(&ray, &hit))
+        Some(self.surface_hit(&self.world.meet_at(point, normal)?))
     }
 
     pub fn material(&self, surface: &Surface) -> &Material {
@@ -156,10 +153,20 @@ impl Transport {
         if self.lobes(surface.material).glass > 0.0 { media.across(surface) } else { media }
     }
 
-    /// The glass that a point is in: of each body, a ray that goes away from the point meets more backs than fronts.
+    /// The glass that a point in space is in.
     pub fn media_at(&self, point: Vec3A) -> Media {
+        self.media_round(Ray::new(point, LOOK.normalize()))
+    }
+
+    /// The glass before a point of a polygon, on the side of a unit normal.
+    pub fn media_beside(&self, from: SurfacePoint, facing: Vec3A) -> Media {
+        let look = LOOK.normalize();
+        self.media_round(Ray::leaving(from, if look.dot(facing) > 0.0 { look } else { -look }))
+    }
+
+    /// The glass that a ray starts in: of each body, it meets more backs than fronts.
+    fn media_round(&self, mut ray: Ray) -> Media {
         let (mut entered, mut around) = (Vec::new(), Vec::new());
-        let mut ray = Ray { origin: point, direction: LOOK.normalize() };
         for _ in 0..if self.has_glass { MOST_SURFACES } else { 0 } {
             let Some(surface) = self.meet(&ray) else { break };
             if self.material(&surface).is_glass() {
@@ -183,13 +190,12 @@ impl Transport {
 
     /// The ray that leaves a surface in a unit direction, on whichever side that lies.
     pub fn leave(&self, surface: &Surface, direction: Vec3A) -> Ray {
-        let side = if direction.dot(surface.facing) >= 0.0 { surface.facing } else { -surface.facing };
-        Ray { origin: self.world.tracer.lift(surface.point, side), direction }
+        Ray::leaving(surface.surface_point(), direction)
     }
 
-    /// Whether nothing stands between a surface, on the side that was met, and a point that is lifted off its own: by a ray.
-    pub fn sees(&self, surface: &Surface, point: Vec3A) -> bool {
-        self.world.tracer.is_visible(self.world.tracer.lift(surface.point, surface.facing), point)
+    /// Whether nothing stands between two points of different polygons: by a ray.
+    pub fn sees(&self, surface: &Surface, point: SurfacePoint) -> bool {
+        self.world.tracer.is_unoccluded(surface.surface_point(), point)
     }
 }
 

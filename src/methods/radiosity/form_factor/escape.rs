@@ -20,7 +20,7 @@ pub fn share(shot: &Shot) -> f64 {
     let count = |i: u32| {
         let origin = origins.point(sobol2(i, 0, seed));
         let direction = frame(shooter.normal) * cosine_hemisphere(sobol2(i, 1, seed));
-        match world.tracer.closest(&Ray { origin, direction }) {
+        match world.tracer.closest(&Ray::new(origin, direction)) {
             None => [1, 1],
             Some(hit) => [0, u32::from(world.mesh.side(hit.polygon, hit.is_front).is_some())],
         }

@@ -165,7 +165,7 @@ impl Pair {
             let (index, seed) = (i % SEQUENCE, hash(effort.seed, 1, u64::from(i / SEQUENCE)) as u32);
             let origin = origins.point(sobol2(index, 0, seed));
             let direction = frame * cosine_hemisphere(sobol2(index, 1, seed));
-            self.tracer.closest(&Ray { origin, direction }).is_some_and(|hit| hit.polygon == TO && hit.is_front)
+            self.tracer.closest(&Ray::new(origin, direction)).is_some_and(|hit| hit.polygon == TO && hit.is_front)
         };
         (0..effort.rays).filter(arrives).count() as f64 / f64::from(effort.rays.max(1))
     }

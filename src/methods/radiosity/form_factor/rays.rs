@@ -69,7 +69,7 @@ impl LightRays {
         for i in 0..count as u32 {
             let origin = origins.point(sobol2(i, 0, seed));
             let direction = frame * cosine_hemisphere(sobol2(i, 1, seed));
-            let Some(hit) = world.tracer.closest(&Ray { origin, direction }) else {
+            let Some(hit) = world.tracer.closest(&Ray::new(origin, direction)) else {
                 ends.escaped += 1;
                 continue;
             };
