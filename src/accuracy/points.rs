@@ -34,9 +34,8 @@ pub fn spread(world: &World, count: usize) -> Vec<ProbePoint> {
         return Vec::new();
     };
     let is_exposed = |found: &ProbePoint| {
-        let lifted = world.tracer.lift(found.point, found.normal);
-        let is_found_again = world.meet_at(found.point, found.normal).is_some();
-        is_found_again && !is_covered(&world.mesh, &world.tracer, lifted, found.normal)
+        let hit = world.meet_at(found.point, found.normal);
+        hit.is_some_and(|hit| !is_covered(&world.mesh, &world.tracer, hit.surface_point(), found.normal))
     };
     let at = |index: usize| {
         let [which, u, v, _] = PaddedPoint::new(hash(0, PASS, 0), index as u64).four(0);

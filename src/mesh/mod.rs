@@ -17,6 +17,7 @@ pub use region::{Region, Sampler};
 pub use subdivide::{element_size_for, estimated_elements, subdivide};
 
 use crate::math::rgb::{Rgb, Rgb64};
+use crate::tracer::SurfacePoint;
 use glam::{Vec3, Vec3A};
 use std::ops::Range;
 
@@ -71,6 +72,11 @@ impl Patch {
     /// Three or four corners, counter-clockwise seen from the side where the patch shines.
     pub fn corners(&self) -> &[Vec3] {
         &self.corners[..self.corner_count as usize]
+    }
+
+    /// A point of the patch, where a ray starts or ends.
+    pub fn surface_point(&self, point: Vec3A) -> SurfacePoint {
+        SurfacePoint { point, polygon: self.polygon }
     }
 
     /// The region that the patch covers.

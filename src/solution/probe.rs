@@ -23,7 +23,7 @@ impl<'a> SurfaceProbe<'a> {
     /// vertices of its element, and 0 where something stands on the surface; `None` where no such surface is.
     pub fn irradiance(&self, point: Vec3A, normal: Vec3A) -> Option<Rgb> {
         let hit = self.world.meet_at(point, normal)?;
-        if is_covered(&self.world.mesh, &self.world.tracer, self.world.tracer.lift(hit.point, normal), normal) {
+        if is_covered(&self.world.mesh, &self.world.tracer, hit.surface_point(), normal) {
             return Some(Rgb::ZERO);
         }
         let location = self.world.mesh.locate(hit.polygon, hit.is_front, hit.point)?;

@@ -77,7 +77,8 @@ pub fn move_off_walls(scene: &mut Scene) -> Vec<Finding> {
     for front in emitting_sides(scene) {
         let polygon = front / 2;
         let Some(wall) = wall_behind(&surfaces, &walls, front, SAME_PLANE * radius) else { continue };
-        let step = Vec3::from(surfaces.normal(front)) * (STEP * radius);
+        let step =
+            Vec3::from(surfaces.normal(front)) * (STEP * radius).min(0.5 * room_before(&surfaces, &walls, front));
         move_polygon(scene, polygon, step);
         findings.push(Finding {
             severity: Severity::Note,
@@ -100,7 +101,19 @@ fn wall_behind(surfaces: &Surfaces, walls: &Tracer, front: usize, tolerance: f32
     let (wall, wall_normal) = (hit.polygon as usize, surfaces.normal(side_index(hit.polygon, true)));
     let on_wall = surfaces.corners_of(wall)[0];
     let is_in_plane = corners.iter().all(|&corner| (corner - on_wall).dot(wall_normal).abs() <= tolerance);
-    is_in_plane.then_some(wall)
+    // What is wholly before the front is lit by it, however near it is.
+    let is_before = corners.iter().all(|&corner| (on_wall - corner).dot(normal) > 0.0);
+    (is_in_plane && !is_before).then_some(wall)
+}
+
+/// Distance from the middle of an emitter to what its front faces, m.
+fn room_before(surfaces: &Surfaces, walls: &Tracer, front: usize) -> f32 {
+    let corners = surfaces.corners_of(front / 2);
+    let center = corners.iter().sum::<Vec3A>() / corners.len() as f32;
+    // Off a wall in the same plane.
+    let start = walls.lift(center, surfaces.normal(front));
+    let ahead = walls.closest(&Ray::new(start, surfaces.normal(front)));
+    ahead.map_or(f32::INFINITY, |hit| hit.distance)
 }
 
 /// Gives the polygon corners of its own, since others may share the old ones.

@@ -6,7 +6,7 @@
 
 use crate::cancel::{Cancel, Cancelled};
 use crate::mesh::{Element, Mesh};
-use crate::tracer::{Ray, Tracer};
+use crate::tracer::{Ray, SurfacePoint, Tracer};
 use glam::{Vec2, Vec3A};
 use rayon::prelude::*;
 
@@ -15,10 +15,10 @@ const GRID: u32 = 8;
 /// Where the first points lie, as a share of the way from a corner to the centre.
 const INSET: f32 = 0.02;
 
-/// Whether a point, lifted off a surface with this normal, is where light cannot be: straight ahead is a side that
-/// nothing reaches. From a point that light reaches, no such side can be seen.
-pub fn is_covered(mesh: &Mesh, tracer: &Tracer, point: Vec3A, normal: Vec3A) -> bool {
-    let ahead = tracer.closest(&Ray::new(point, normal));
+/// Whether a point of a surface with this unit normal is where light cannot be: straight ahead is a side that nothing
+/// reaches. From a point that light reaches, no such side can be seen.
+pub fn is_covered(mesh: &Mesh, tracer: &Tracer, point: SurfacePoint, normal: Vec3A) -> bool {
+    let ahead = tracer.closest(&Ray::leaving(point, normal));
     ahead.is_some_and(|hit| mesh.side(hit.polygon, hit.is_front).is_none())
 }
 
@@ -36,10 +36,10 @@ pub fn shares(mesh: &Mesh, tracer: &Tracer, cancel: &Cancel) -> Result<Vec<f32>,
 }
 
 fn share(mesh: &Mesh, tracer: &Tracer, element: &Element) -> f32 {
-    let normal = mesh.patches[element.patch as usize].normal;
+    let patch = &mesh.patches[element.patch as usize];
     let region = mesh.region(element);
     let corners = region.corners();
-    let is_exposed = |point: Vec3A| !is_covered(mesh, tracer, tracer.lift(point, normal), normal);
+    let is_exposed = |point: Vec3A| !is_covered(mesh, tracer, patch.surface_point(point), patch.normal);
     let inset = corners.iter().map(|corner| corner.lerp(element.center, INSET));
     let first = inset.chain([element.center]).filter(|&point| is_exposed(point)).count();
     if first == 0 || first == corners.len() + 1 {

@@ -17,7 +17,7 @@ use crate::math::bounds::Bounds;
 use crate::math::random::Stream;
 use crate::mesh::side_index;
 use crate::scene::Scene;
-use crate::tracer::{Ray, Tracer};
+use crate::tracer::{Hit, Ray, Tracer};
 use glam::{Vec3, Vec3A};
 use rayon::prelude::*;
 
@@ -106,7 +106,7 @@ pub fn explore(
         .map(|side| {
             let shell = shells.of_side[side];
             let may_be_reached = is_shell_reached[shell] || is_shell_open[shell];
-            if !may_be_reached || cancel.is_requested() || !has_room(side, near, surfaces, tracer) {
+            if !may_be_reached || cancel.is_requested() || !has_room(side, near, emitters, surfaces, tracer) {
                 return (false, false);
             }
             let is_walked =
@@ -237,13 +237,14 @@ fn looks_at_something(side: usize, light: &[Place], surfaces: &Surfaces, tracer:
     })
 }
 
-/// Whether some of the side is farther than `near`, m, from whatever is before it: the back of a lamp that is let into
-/// a ceiling is not.
-fn has_room(side: usize, near: f32, surfaces: &Surfaces, tracer: &Tracer) -> bool {
+/// Whether some of the side is farther than `near`, m, from whatever is before it, or faces an emitter: the back of a lamp
+/// that is let into a ceiling does not. `emitters` are sides in ascending order.
+fn has_room(side: usize, near: f32, emitters: &[usize], surfaces: &Surfaces, tracer: &Tracer) -> bool {
+    let emits = |hit: &Hit| emitters.binary_search(&side_index(hit.polygon, hit.is_front)).is_ok();
     let mut stream = Stream::new(1, LOOK_PASS, side as u64);
     (0..LOOKS).any(|_| {
         let place = surfaces.place(side, &mut stream);
         let ahead = tracer.closest(&Ray::leaving(place.surface_point(), place.normal));
-        ahead.is_none_or(|hit| hit.distance > near)
+        ahead.is_none_or(|hit| hit.distance > near || emits(&hit))
     })
 }

@@ -12,8 +12,8 @@ use super::{clip_above, vector_area};
 use glam::DVec3;
 use std::f64::consts::TAU;
 
-/// The most corners that a polygon may have in [`area_form_factor`].
-const MAX_CORNERS: usize = 16;
+/// Corners of a polygon clipped at a plane: twice those of the largest in [`area_form_factor`].
+const MAX_CORNERS: usize = 24;
 /// Rounding of a form factor.
 const ROUNDING: f64 = 1e-14;
 /// Lines that pass each other within this share of the edges' length, times the root of the sine of their angle, meet.

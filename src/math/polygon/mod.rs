@@ -27,7 +27,8 @@ pub fn vector_area(corners: &[DVec3]) -> DVec3 {
 }
 
 /// Copies the part of a convex polygon on the positive side of the plane through `point` into `clipped`, relative to
-/// `point`, and returns its number of corners (Sutherland, Hodgman 1974; one plane adds at most one corner).
+/// `point`, and returns its number of corners (Sutherland, Hodgman 1974). One plane adds at most one corner; where all
+/// corners are in the plane but for rounding there may be up to twice as many.
 fn clip_above(point: DVec3, normal: DVec3, corners: &[DVec3], clipped: &mut [DVec3]) -> usize {
     let mut count = 0;
     let mut from = corners[corners.len() - 1] - point;

@@ -6,6 +6,9 @@ use super::{contour, vector_area};
 use glam::DVec3;
 use std::f64::consts::PI;
 
+/// Plates whose normals have a smaller cosine than this face each other like parallel plates.
+const FACING: f64 = -0.5;
+
 /// A planar convex triangle or quad, made ready for form factors to others.
 #[derive(Clone, Debug)]
 pub struct Plate {
@@ -114,7 +117,7 @@ impl Plate {
     }
 
     /// How much of the other plate is in front of this one. What is within this share of their radius of its plane is
-    /// in it.
+    /// in it, unless the two face each other like parallel plates.
     fn shows(&self, other: &Self, tolerance: f64) -> InFront {
         let height = (other.center - self.center).dot(self.normal);
         if height > other.radius {
@@ -124,7 +127,8 @@ impl Plate {
             return InFront::None;
         }
         let heights = other.corners.map(|corner| (corner - self.center).dot(self.normal));
-        let rounding = tolerance * self.radius.min(other.radius);
+        let is_facing = self.normal.dot(other.normal) < FACING;
+        let rounding = if is_facing { 0.0 } else { tolerance * self.radius.min(other.radius) };
         if heights.iter().all(|&height| height <= rounding) {
             InFront::None
         } else if heights.iter().all(|&height| height >= -rounding) {

@@ -15,7 +15,7 @@ pub const MAX_CORNERS: usize = 4;
 /// front of the polygon; the result is 0 for a point that is not in front of it. Angles come from atan2, since acos
 /// loses half its digits for short edges.
 pub fn form_factor(point: DVec3, normal: DVec3, corners: &[DVec3]) -> f64 {
-    let mut clipped = [DVec3::ZERO; MAX_CORNERS + 1];
+    let mut clipped = [DVec3::ZERO; 2 * MAX_CORNERS];
     let count = clip_above(point, normal, corners, &mut clipped);
     if count < 3 {
         return 0.0;

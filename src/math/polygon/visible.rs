@@ -86,7 +86,7 @@ fn cut(corners: &[DVec3], point: DVec3, normal: DVec3) -> Vec<DVec3> {
     if corners.len() < 3 {
         return Vec::new();
     }
-    let mut clipped = vec![DVec3::ZERO; corners.len() + 1];
+    let mut clipped = vec![DVec3::ZERO; 2 * corners.len()];
     let count = clip_above(point, normal, corners, &mut clipped);
     clipped.truncate(count);
     clipped

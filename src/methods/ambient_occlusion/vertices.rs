@@ -177,7 +177,7 @@ impl VertexOcclusion {
     /// Whether nothing stands on the surface at this place.
     fn is_exposed(&self, surface: &Surface) -> bool {
         let world = &self.transport.world;
-        !is_covered(&world.mesh, &world.tracer, world.tracer.lift(surface.point, surface.facing), surface.facing)
+        !is_covered(&world.mesh, &world.tracer, surface.surface_point(), surface.facing)
     }
 
     /// The place on the way from a vertex to the middle of an element.

@@ -6,7 +6,7 @@ use crate::math::rgb::Rgb;
 use crate::mesh::Patch;
 use crate::methods::transport::{Bsdf, Surface, colour};
 use crate::solution::{Balance, Equation, LightSource, Visibility};
-use crate::tracer::{Hit, Ray};
+use crate::tracer::{Hit, Ray, SPACE, SurfacePoint};
 use crate::world::World;
 use glam::{DVec3, Vec3, Vec3A};
 use std::f64::consts::PI;
@@ -52,8 +52,8 @@ impl PickedLight<'_> {
             visibility: if cosines.contains(&0.0) {
                 Visibility::FacesAway
             } else {
-                let lifted = |point: Vec3, patch: &Patch| self.world.tracer.lift(point.into(), patch.normal);
-                first_between(self.world, lifted(points.point, here), lifted(source, there), |_| true)
+                let (from, to) = (here.surface_point(points.point.into()), there.surface_point(source.into()));
+                first_between(self.world, from, to, |_| true)
             },
             diffuse: self.reflectance / PI,
             gloss: colour(gloss(self.world, here, points, way), self.effects).as_dvec3(),
@@ -107,25 +107,25 @@ fn seen_by_eye(world: &World, eye: DVec3, point: Vec3, patch: &Patch) -> Visibil
     if cosine(eye - point.as_dvec3(), patch, plane_tolerance(world).into()) == 0.0 {
         return Visibility::FacesAway;
     }
-    let target = world.tracer.lift(point.into(), patch.normal);
     let is_drawn = |hit: &Hit| world.mesh.side(hit.polygon, hit.is_front).is_some();
-    first_between(world, eye.as_vec3a(), target, is_drawn)
+    let eye = SurfacePoint { point: eye.as_vec3a(), polygon: SPACE };
+    first_between(world, eye, patch.surface_point(point.into()), is_drawn)
 }
 
-/// What of all that `counts` stands first between two points that are off their surfaces.
-fn first_between(world: &World, from: Vec3A, to: Vec3A, counts: impl Fn(&Hit) -> bool) -> Visibility {
-    let mut left = from.distance(to);
-    let direction = (to - from).normalize_or_zero();
-    let mut origin = from;
-    while left > 0.0 {
-        let Some(hit) = world.tracer.closest_within(&Ray::new(origin, direction), left) else { break };
-        if counts(&hit) {
-            return Visibility::Blocked { polygon: hit.polygon, at: (origin + hit.distance * direction).into() };
+/// What of all that `counts` stands first between two points.
+fn first_between(world: &World, from: SurfacePoint, to: SurfacePoint, counts: impl Fn(&Hit) -> bool) -> Visibility {
+    let mut left = from.point.distance(to.point);
+    let direction = (to.point - from.point).normalize_or_zero();
+    let mut ray = Ray::leaving(from, direction);
+    while let Some(hit) = world.tracer.closest_within(&ray, left) {
+        if hit.polygon == to.polygon {
+            break;
         }
-        // The next origin lies behind that side by twice what a hit is known to.
-        let behind = hit.distance + 2.0 * world.tracer.offset();
-        origin += behind * direction;
-        left -= behind;
+        if counts(&hit) {
+            return Visibility::Blocked { polygon: hit.polygon, at: hit.point.into() };
+        }
+        left -= hit.distance;
+        ray = Ray::leaving(hit.surface_point(), direction);
     }
     Visibility::Free
 }

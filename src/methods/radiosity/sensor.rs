@@ -5,6 +5,7 @@ use crate::math::random::{hash, sobol2};
 use crate::math::rgb::{Rgb, Rgb64};
 use crate::mesh::Patch;
 use crate::solution::Solution;
+use crate::tracer::{SPACE, SurfacePoint};
 use crate::world::World;
 use glam::{DVec3, Vec3A};
 use rayon::prelude::*;
@@ -43,13 +44,14 @@ pub fn irradiance_in_space(world: &World, solution: &Solution, point: Vec3A, nor
 
 /// Share of the patch's points above the horizon that the sensor sees.
 fn visible_share(world: &World, patch: &Patch, point: Vec3A, normal: Vec3A, seed: u32) -> f64 {
-    let targets = patch.region().sampler(world.tracer.offset() * patch.normal);
+    let targets = patch.region().sampler(Vec3A::ZERO);
+    let from = SurfacePoint { point, polygon: SPACE };
     let (mut above, mut visible) = (0, 0);
     for i in 0..RAYS {
         let to = targets.point(sobol2(i, 0, seed));
         if (to - point).dot(normal) > 0.0 {
             above += 1;
-            visible += u32::from(world.tracer.is_visible(point, to));
+            visible += u32::from(world.tracer.is_unoccluded(from, patch.surface_point(to)));
         }
     }
     if above > 0 { f64::from(visible) / f64::from(above) } else { 0.0 }

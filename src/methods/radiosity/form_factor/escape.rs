@@ -4,6 +4,7 @@ use super::Shot;
 use crate::math::random::{hash, sobol2};
 use crate::math::warp::{cosine_hemisphere, frame};
 use crate::tracer::Ray;
+use glam::Vec3A;
 use rayon::prelude::*;
 
 /// Rays of one shot. They are stratified: the shares are good to about half a percent.
@@ -16,11 +17,11 @@ const PASS: u64 = 0x6573_6361_7065;
 pub fn share(shot: &Shot) -> f64 {
     let (world, shooter) = (shot.world, shot.shooter());
     let seed = hash(shot.seed, shot.pass, PASS) as u32;
-    let origins = shooter.region().sampler(world.tracer.offset() * shooter.normal);
+    let origins = shooter.region().sampler(Vec3A::ZERO);
     let count = |i: u32| {
-        let origin = origins.point(sobol2(i, 0, seed));
+        let from = shooter.surface_point(origins.point(sobol2(i, 0, seed)));
         let direction = frame(shooter.normal) * cosine_hemisphere(sobol2(i, 1, seed));
-        match world.tracer.closest(&Ray::new(origin, direction)) {
+        match world.tracer.closest(&Ray::leaving(from, direction)) {
             None => [1, 1],
             Some(hit) => [0, u32::from(world.mesh.side(hit.polygon, hit.is_front).is_some())],
         }

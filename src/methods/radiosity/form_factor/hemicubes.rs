@@ -85,15 +85,15 @@ impl Hemicubes {
 /// nothing is seen. Lifted off the patch.
 fn exposed_middle(world: &World, patch: &Patch) -> Vec3A {
     let World { mesh, tracer, .. } = world;
-    let center = tracer.lift(patch.center, patch.normal);
     let elements = &mesh.elements[patch.elements.start as usize..patch.elements.end as usize];
     if elements.iter().all(|element| element.exposed == 1.0) {
-        return center;
+        return tracer.lift(patch.center, patch.normal);
     }
-    let points = patch.region().sampler(tracer.offset() * patch.normal);
+    let points = patch.region().sampler(Vec3A::ZERO);
     let others = (0..TRIES).map(|i| points.point(sobol2(i, 0, 0)));
-    let mut all = std::iter::once(center).chain(others);
-    all.find(|point| !is_covered(mesh, tracer, *point, patch.normal)).unwrap_or(center)
+    let mut all = std::iter::once(patch.center).chain(others);
+    let is_exposed = |point: &Vec3A| !is_covered(mesh, tracer, patch.surface_point(*point), patch.normal);
+    tracer.lift(all.find(is_exposed).unwrap_or(patch.center), patch.normal)
 }
 
 /// The closed form for receivers that are too near for a point to stand for the shooter.

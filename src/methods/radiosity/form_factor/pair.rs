@@ -10,7 +10,7 @@ use crate::math::warp::{cosine_hemisphere, frame};
 use crate::mesh::Region;
 use crate::methods::FormFactorMethod;
 use crate::solution::ItemBuffer;
-use crate::tracer::{Ray, Tracer};
+use crate::tracer::{Ray, SurfacePoint, Tracer};
 use glam::{DVec3, Vec2, Vec3, Vec3A};
 
 /// Polygons in the tracer: the one that shines, the one that is lit, then the occluders.
@@ -119,9 +119,13 @@ impl Pair {
 
     /// 1 if the centres see each other, or 0.
     fn center_is_visible(&self) -> f64 {
-        let from = self.tracer.lift(self.from.center(), self.from.normal);
-        let to = self.tracer.lift(self.to.center(), self.to.normal);
-        f64::from(u8::from(self.occluders.is_empty() || self.tracer.is_visible(from, to)))
+        f64::from(u8::from(self.occluders.is_empty() || self.sees(self.from.center(), self.to.center())))
+    }
+
+    /// Whether nothing stands between a point of the first polygon and one of the second.
+    fn sees(&self, from: Vec3A, to: Vec3A) -> bool {
+        let [from, to] = [(from, FROM), (to, TO)].map(|(point, polygon)| SurfacePoint { point, polygon });
+        self.tracer.is_unoccluded(from, to)
     }
 
     /// The closed form, integrated over the first polygon; with occluders its mean over Gauss points, each times the
@@ -132,15 +136,14 @@ impl Pair {
             return from.exchange(&Plate::new(&self.to.corners), TOLERANCE) / from.area();
         }
         let points = self.gauss_points();
-        let targets = self.to.region.sampler(self.tracer.offset() * self.to.normal);
+        let targets = self.to.region.sampler(Vec3A::ZERO);
         let at = |(index, point): (u64, &Vec3A)| {
             let whole = form_factor(point.as_dvec3(), self.from.facet.normal, &self.to.corners);
             if whole == 0.0 {
                 return whole;
             }
-            let origin = self.tracer.lift(*point, self.from.normal);
             let seed = hash(effort.seed, 0, index) as u32;
-            let is_visible = |i: &u32| self.tracer.is_visible(origin, targets.point(sobol2(*i, 0, seed)));
+            let is_visible = |i: &u32| self.sees(*point, targets.point(sobol2(*i, 0, seed)));
             whole * (0..effort.shadow_rays).filter(is_visible).count() as f64 / f64::from(effort.shadow_rays.max(1))
         };
         (0..).zip(&points).map(at).sum::<f64>() / points.len() as f64
@@ -159,13 +162,13 @@ impl Pair {
 
     /// Share of cosine-distributed rays from all over the first polygon that land on the front of the second.
     fn by_rays(&self, effort: &Effort) -> f64 {
-        let origins = self.from.region.sampler(self.tracer.offset() * self.from.normal);
+        let origins = self.from.region.sampler(Vec3A::ZERO);
         let frame = frame(self.from.normal);
         let arrives = |i: &u32| {
             let (index, seed) = (i % SEQUENCE, hash(effort.seed, 1, u64::from(i / SEQUENCE)) as u32);
-            let origin = origins.point(sobol2(index, 0, seed));
+            let from = SurfacePoint { point: origins.point(sobol2(index, 0, seed)), polygon: FROM };
             let direction = frame * cosine_hemisphere(sobol2(index, 1, seed));
-            self.tracer.closest(&Ray::new(origin, direction)).is_some_and(|hit| hit.polygon == TO && hit.is_front)
+            self.tracer.closest(&Ray::leaving(from, direction)).is_some_and(|hit| hit.polygon == TO && hit.is_front)
         };
         (0..effort.rays).filter(arrives).count() as f64 / f64::from(effort.rays.max(1))
     }

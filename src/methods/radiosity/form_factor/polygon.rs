@@ -11,6 +11,9 @@ const NEAR_RADII: f64 = 4.0;
 /// Relative error of that integral: far below the noise of shadow rays.
 pub(super) const TOLERANCE: f64 = 1e-4;
 
+/// Patches whose normals have a smaller cosine than this face each other like parallel plates.
+const FACING: f32 = -0.5;
+
 /// The formula.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kernel {
@@ -47,8 +50,9 @@ impl Shooter {
 
     /// Why no part of the receiving patch can see the front of the shooter, whatever stands between them, or `None` if
     /// some may: each reaches more than `tolerance` (m) above the other's plane. Patches of one plane do not, whatever
-    /// their corners were rounded to.
+    /// their corners were rounded to. Of those that face each other, however near, all that is above counts.
     pub fn out_of_sight(&self, receiver: &Patch, tolerance: f32) -> Option<Zero> {
+        let tolerance = if receiver.normal.dot(self.normal) < FACING { 0.0 } else { tolerance };
         let center = self.facet.center.as_vec3a();
         let height = |corner: &glam::Vec3| (Vec3A::from(*corner) - center).dot(self.normal);
         let above_receiver = |corner: &DVec3| (corner.as_vec3a() - receiver.center).dot(receiver.normal) > tolerance;

@@ -5,6 +5,7 @@ use crate::math::random::{hash, sobol2};
 use crate::math::warp::{cosine_hemisphere, frame};
 use crate::solution::Counters;
 use crate::tracer::Ray;
+use glam::Vec3A;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -64,16 +65,16 @@ impl LightRays {
             return ends;
         }
         let seed = hash(shot.seed ^ PASS, shot.pass, batch) as u32;
-        let origins = shooter.region().sampler(world.tracer.offset() * shooter.normal);
+        let origins = shooter.region().sampler(Vec3A::ZERO);
         let frame = frame(shooter.normal);
         for i in 0..count as u32 {
-            let origin = origins.point(sobol2(i, 0, seed));
+            let from = shooter.surface_point(origins.point(sobol2(i, 0, seed)));
             let direction = frame * cosine_hemisphere(sobol2(i, 1, seed));
-            let Some(hit) = world.tracer.closest(&Ray::new(origin, direction)) else {
+            let Some(hit) = world.tracer.closest(&Ray::leaving(from, direction)) else {
                 ends.escaped += 1;
                 continue;
             };
-            if let Some(location) = world.mesh.locate(hit.polygon, hit.is_front, origin + hit.distance * direction) {
+            if let Some(location) = world.mesh.locate(hit.polygon, hit.is_front, hit.point) {
                 self.hits[location.element as usize].fetch_add(1, Ordering::Relaxed);
                 ends.landed += 1;
             }

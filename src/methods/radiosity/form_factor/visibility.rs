@@ -3,6 +3,7 @@
 use crate::math::random::unit_vec4;
 use crate::mesh::{Element, Patch, Sampler};
 use crate::methods::Settings;
+use crate::tracer::SurfacePoint;
 use crate::world::{World, is_covered};
 use glam::{Vec3A, Vec4, Vec4Swizzles};
 
@@ -31,16 +32,14 @@ impl Rays {
 /// The receivers and the shooter that rays run between.
 pub struct Sightline<'a> {
     world: &'a World,
-    /// Lifted off the shooter.
-    shooter: Sampler,
-    shooter_normal: Vec3A,
+    shooter: &'a Patch,
+    points: Sampler,
     rays: Rays,
 }
 
 impl<'a> Sightline<'a> {
-    pub fn new(world: &'a World, shooter: &Patch, rays: Rays) -> Self {
-        let lift = world.tracer.offset() * shooter.normal;
-        Self { world, shooter: shooter.region().sampler(lift), shooter_normal: shooter.normal, rays }
+    pub fn new(world: &'a World, shooter: &'a Patch, rays: Rays) -> Self {
+        Self { world, shooter, points: shooter.region().sampler(Vec3A::ZERO), rays }
     }
 
     /// How many rays go to a receiver with this form factor, at most.
@@ -53,7 +52,8 @@ impl<'a> Sightline<'a> {
     /// points, so that neighbours do not err alike.
     pub fn visible_share(&self, element: &Element, normal: Vec3A, form_factor: f64, shift: u64) -> (f64, u32) {
         let World { mesh, tracer, .. } = self.world;
-        let receiver = mesh.region(element).sampler(tracer.offset() * normal);
+        let receiver = mesh.region(element).sampler(Vec3A::ZERO);
+        let polygon = mesh.patches[element.patch as usize].polygon;
         let rays = self.rays.to(form_factor);
         let is_partly_covered = element.exposed < 1.0;
         let tries = if is_partly_covered { TRIES * rays } else { rays };
@@ -61,15 +61,15 @@ impl<'a> Sightline<'a> {
         let (mut pairs, mut facing, mut visible) = (0, 0, 0);
         for _ in 0..tries {
             at = (at + STEP).fract();
-            let from = receiver.point(at.xy());
+            let from = SurfacePoint { point: receiver.point(at.xy()), polygon };
             if is_partly_covered && is_covered(mesh, tracer, from, normal) {
                 continue;
             }
-            let to = self.shooter.point(at.zw());
-            let way = to - from;
-            if way.dot(normal) > 0.0 && way.dot(self.shooter_normal) < 0.0 {
+            let to = self.shooter.surface_point(self.points.point(at.zw()));
+            let way = to.point - from.point;
+            if way.dot(normal) > 0.0 && way.dot(self.shooter.normal) < 0.0 {
                 facing += 1;
-                visible += u32::from(tracer.is_visible(from, to));
+                visible += u32::from(tracer.is_unoccluded(from, to));
             }
             pairs += 1;
             if pairs == rays {
