@@ -86,10 +86,10 @@ impl Census {
     }
 }
 
-/// Whether light of these emitting sides may arrive at any side that is reached.
-pub(super) fn light_arrives(surfaces: &Surfaces, emitters: &[usize], is_reached: &[bool], tolerance: f64) -> bool {
+/// Whether light of these emitting sides may arrive at any side that is reached. No gap is too small for it.
+pub(super) fn light_arrives(surfaces: &Surfaces, emitters: &[usize], is_reached: &[bool]) -> bool {
     let reached: Vec<usize> = (0..is_reached.len()).filter(|&side| is_reached[side]).collect();
-    may_see(surfaces, emitters, &reached, tolerance)
+    may_see(surfaces, emitters, &reached, 0.0)
 }
 
 /// Smallest and largest ρ, by channel, of the materials that are reached.
@@ -169,7 +169,7 @@ mod tests {
         let count = |_| {
             let start = Instant::now();
             let emitters = emitting_sides(&world.scene);
-            let arrives = light_arrives(&surfaces, &emitters, &world.is_reached, tolerance);
+            let arrives = light_arrives(&surfaces, &emitters, &world.is_reached);
             let has_occluders = occluders::may_exist(&surfaces, &emitters, &world.is_reached, tolerance);
             let unseen = world.census.unseen_emitters;
             let census = Census::take(&world.scene, &surfaces, &world.is_reached, unseen, arrives, tolerance);

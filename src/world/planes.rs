@@ -7,9 +7,6 @@ use glam::{DVec3, Vec3A};
 /// than a few thousandths of a second.
 const MOST_PAIRS: usize = 1 << 17;
 
-/// Sides whose normals have a smaller cosine than this face each other like parallel plates.
-const FACING: f64 = -0.5;
-
 /// The plane of a side.
 #[derive(Clone, Copy, PartialEq)]
 pub struct Plane {
@@ -51,12 +48,9 @@ pub fn may_see(surfaces: &Surfaces, from: &[usize], to: &[usize], tolerance: f64
         let plane = Plane::new(surfaces, this);
         to.iter().any(|&other| {
             pairs += 1;
-            let facing = Plane::new(surfaces, other);
-            // Plates that face each other do so however near they are.
-            let tolerance = if plane.normal.dot(facing.normal) < FACING { 0.0 } else { tolerance };
             pairs > MOST_PAIRS
                 || plane.faces(surfaces.corners_of(other / 2), tolerance)
-                    && facing.faces(surfaces.corners_of(this / 2), tolerance)
+                    && Plane::new(surfaces, other).faces(surfaces.corners_of(this / 2), tolerance)
         })
     })
 }
