@@ -3,6 +3,7 @@
 use super::points::ProbePoint;
 use crate::math::rgb::Rgb;
 use crate::math::stats::Moments;
+use crate::methods::image::Reading;
 use crate::methods::photon_map::{Estimate, PhotonMaps, Scratch, Which};
 use crate::methods::radiosity::irradiance_in_space;
 use crate::methods::transport::{Surface, Transport};
@@ -20,11 +21,21 @@ pub struct Found {
 }
 
 impl Found {
-    /// The means over independent samples of each point and channel.
+    /// The means over independent samples of each point and channel. One alone does not tell how it scatters.
     pub fn of_samples(channels: &[[Moments; 3]]) -> Self {
         let mean = |channels: &[Moments; 3]| Rgb::from_array(channels.each_ref().map(|channel| channel.mean() as f32));
         let squares: f64 = channels.iter().flatten().map(|channel| channel.standard_error().powi(2)).sum();
-        Self { irradiance: channels.iter().map(mean).collect(), variance: Some(squares / count(channels.len())) }
+        let tells = channels.iter().flatten().all(|channel| channel.count() > 1);
+        let variance = tells.then(|| squares / count(channels.len()));
+        Self { irradiance: channels.iter().map(mean).collect(), variance }
+    }
+
+    /// What a view shows.
+    pub fn of_readings(readings: &[Reading]) -> Self {
+        let irradiance = |reading: &Reading| Rgb::from_array(reading.irradiance.map(|value| value as f32));
+        let squares: f64 = readings.iter().flat_map(|reading| reading.standard_error).map(|error| error * error).sum();
+        let variance = squares.is_finite().then(|| squares / count(readings.len()));
+        Self { irradiance: readings.iter().map(irradiance).collect(), variance }
     }
 }
 

@@ -40,7 +40,7 @@ impl Advice {
         let (approach, reason) = if needed.contains(Effect::AmbientLight) {
             let reason = "No emitter lights anything, and how open each place is needs none.".to_owned();
             (Approach::AmbientOcclusion, reason)
-        } else if needed.contains(Effect::Caustics) {
+        } else if needed.contains(Effect::Caustics) && census.diffuse > 0 {
             let reason = format!(
                 "Specular surfaces may gather light on {} diffuse polygons, and photons find such light from the emitters' \
                  side.",

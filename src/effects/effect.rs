@@ -20,7 +20,7 @@ pub enum Effect {
     Gloss,
     /// Glass, and surfaces that are not opaque.
     Transmission,
-    /// Light that specular surfaces gather on diffuse ones.
+    /// Light that arrives at surfaces over specular ones alone.
     Caustics,
     /// Light that leaves the scene.
     Escape,

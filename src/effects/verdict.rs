@@ -148,7 +148,8 @@ fn transmission(census: &Census) -> (bool, String) {
     if census.glass + census.sheets == 0 {
         return (false, format!("All {reached} that light reaches are opaque."));
     }
-    (true, format!("Of {reached}, {} are glass, and {} let light straight through.", census.glass, census.sheets))
+    let of_glass = format!("{} are glass (√Tf at each boundary, so that a body counts Tf once)", census.glass);
+    (true, format!("Of {reached}, {of_glass}, and {} let light straight through (Tf at each).", census.sheets))
 }
 
 fn caustics(census: &Census) -> (bool, String) {
@@ -161,7 +162,9 @@ fn caustics(census: &Census) -> (bool, String) {
     if !census.light_may_meet_specular {
         (false, format!("No emitter faces a specular polygon ({specular})."))
     } else if census.diffuse == 0 {
-        (false, format!("No diffuse polygon catches light that specular ones gather ({specular})."))
+        // The irradiance of a black surface is asked for all the same.
+        let reason = "and none is diffuse: no picture shows what they gather, but it is part of the irradiance";
+        (true, format!("Emitters may shine on specular polygons ({specular}), {reason}."))
     } else {
         (true, format!("Emitters may shine on specular polygons ({specular}), and {} are diffuse.", census.diffuse))
     }

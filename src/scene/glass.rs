@@ -3,7 +3,8 @@
 //! Rays know that they are in glass by the fronts and backs that they cross, so fronts must look outwards. Connected faces
 //! of one glass are a shell. Of a closed one, faces that disagree with their neighbours are turned, and then all of them
 //! if the volume inside is negative. A shell inside another of the same glass may bound a bubble, and look into it. A surface
-//! that is not closed has no inside: it counts as a sheet that light passes straight through.
+//! that is not closed has no inside: it counts as a sheet that light passes straight through. `Tf` of the material counts once
+//! for either: √`Tf` at each of the two boundaries of a body that light crosses, `Tf` at a sheet.
 
 use super::doctor::{Finding, FindingKind};
 use super::material::Material;
@@ -36,7 +37,7 @@ pub fn mend(scene: &mut Scene) -> Vec<Finding> {
             findings.push(open_glass(
                 subject,
                 shell.open_edges,
-                "treated as a sheet that light passes straight through",
+                "treated as a sheet: light passes straight through, Tf of it",
             ));
             continue;
         }

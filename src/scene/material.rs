@@ -18,8 +18,9 @@ pub struct Material {
     pub emission: Rgb,
     /// Index of refraction (`Ni`).
     pub refraction_index: f32,
-    /// Transmission filter (`Tf`), each channel in [0, 1]: which share passes of the light that goes through. It says
-    /// nothing about an opaque material. 1 where the file states none.
+    /// Transmission filter (`Tf`), each channel in [0, 1]: which share passes of the light that goes through, once for a
+    /// whole body and once for a sheet; see [`Material::lobes`]. It says nothing about an opaque material. 1 where the file
+    /// states none.
     pub transmission: Rgb,
     /// Opacity in [0, 1] (`d`, or 1 − `Tr`).
     pub opacity: f32,
@@ -64,7 +65,8 @@ impl Material {
     ///
     /// - A mirror reflects `Ks` at every angle.
     /// - Glass reflects and lets through after Fresnel, so that its `Ks` says nothing. It is all glass unless it states an
-    ///   opacity, which is the share of its diffuse part.
+    ///   opacity, which is the share of its diffuse part. It is a body with an inside: light that goes through crosses its
+    ///   boundary twice, and √`Tf` at each crossing makes that `Tf`.
     /// - What is not opaque, but no glass, lets light straight through.
     pub fn lobes(&self) -> Lobes {
         let Some(kind) = self.specular_kind() else {
@@ -81,8 +83,13 @@ impl Material {
         match kind {
             SpecularKind::Gloss => Lobes { glossy: specular, exponent: self.shininess, straight, ..lobes },
             SpecularKind::Mirror => Lobes { mirror: specular, straight, ..lobes },
-            SpecularKind::Glass => Lobes { glass: 1.0 - opaque, filter: self.transmission, ..lobes },
+            SpecularKind::Glass => Lobes { glass: 1.0 - opaque, filter: self.boundary_filter(), ..lobes },
         }
+    }
+
+    /// √`Tf`: the share that passes at each of the two boundaries that light crosses on its way through a body.
+    fn boundary_filter(&self) -> Rgb {
+        Rgb::from_array(self.transmission.to_array().map(f32::sqrt))
     }
 
     /// Whether it is glass, which has an inside.
@@ -90,7 +97,8 @@ impl Material {
         self.lobes().glass > 0.0
     }
 
-    /// The same glass without a thickness: what its surface would let into it passes straight.
+    /// The same glass without a thickness: what its surface would let into it passes straight, and `Tf` of it at the one
+    /// crossing.
     pub fn as_sheet(&self) -> Self {
         let opacity = 1.0 - self.lobes().glass;
         Self { opacity, specular: Rgb::ZERO, illumination_model: None, ..self.clone() }
@@ -140,7 +148,7 @@ pub struct Lobes {
     pub mirror: Rgb,
     /// Share that meets a boundary of glass, which reflects and refracts it after Fresnel and Snell.
     pub glass: f32,
-    /// Share that glass lets through of what it refracts, at each boundary.
+    /// Share that glass lets through of what it refracts, at each boundary: √`Tf`.
     pub filter: Rgb,
     /// Passes without a turn.
     pub straight: Rgb,
@@ -150,6 +158,20 @@ impl Lobes {
     /// Whether light goes through.
     pub fn is_clear(&self) -> bool {
         self.glass > 0.0 || self.straight != Rgb::ZERO
+    }
+
+    /// The largest share of the light, over channels, that goes on in whichever way, in [0, 1].
+    pub fn reflectance(&self) -> f32 {
+        (self.diffuse + self.specular()).max_element()
+    }
+
+    /// The same of all but the diffuse lobe.
+    pub fn specular_reflectance(&self) -> f32 {
+        self.specular().max_element()
+    }
+
+    fn specular(&self) -> Rgb {
+        self.glossy + self.mirror + self.straight + Rgb::splat(self.glass)
     }
 
     /// Whether there is anything but a diffuse lobe.
@@ -180,7 +202,7 @@ mod tests {
         let dull = Lobes { diffuse: Rgb::splat(0.3), ..Lobes::default() };
         let gloss = Lobes { glossy: Rgb::splat(0.6), exponent: 40.0, ..dull };
         let mirror = Lobes { mirror: Rgb::splat(0.6), ..dull };
-        let glass = Lobes { glass: 1.0, filter: Rgb::splat(0.9), ..Lobes::default() };
+        let glass = Lobes { glass: 1.0, filter: Rgb::splat(0.9_f32.sqrt()), ..Lobes::default() };
         for (models, expected) in [
             (&[Some(0), Some(1)][..], dull),
             (&[None, Some(2), Some(10)], gloss),
@@ -204,7 +226,7 @@ mod tests {
         let glossy = Rgb::splat(0.25 * 0.6);
         assert_eq!(quarter(None), Lobes { diffuse, glossy, exponent: 40.0, straight, ..Lobes::default() });
         assert_eq!(quarter(Some(3)), Lobes { diffuse, mirror: glossy, straight, ..Lobes::default() });
-        let filter = Rgb::splat(0.9);
+        let filter = Rgb::splat(0.9_f32.sqrt());
         assert_eq!(quarter(Some(7)), Lobes { diffuse, glass: 0.75, filter, ..Lobes::default() });
     }
 

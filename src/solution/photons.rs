@@ -7,7 +7,7 @@ use glam::Vec3;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// A photon that landed on a diffuse surface.
+/// A photon where it landed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Photon {
     /// Where it landed, m.
@@ -72,7 +72,9 @@ pub struct Gathered {
     pub inside: f32,
     /// Relative standard error of the estimate.
     pub relative_error: f32,
-    /// Indices of the photons that count.
+    /// How many photons count.
+    pub photons: u32,
+    /// Indices of those of them that are handed out: on surfaces without a diffuse lobe photons count, but are not shown.
     pub used: Vec<u32>,
     /// Indices of photons as near that do not belong: on a side turned away, off the plane, behind a wall, round a corner.
     pub rejected: Vec<u32>,
@@ -89,7 +91,7 @@ pub struct PhotonSolution {
     pub elapsed: Duration,
     /// Whether all photons of the present pass are there.
     pub is_complete: bool,
-    /// The photons of the present pass, those of the caustic map included. While they are still coming, the last few may be
+    /// The photons of the present pass on diffuse surfaces, those of the caustic map included. While they are still coming, the last few may be
     /// missing that the counters know of already; those that are there keep their places.
     pub photons: Arc<Vec<Photon>>,
     /// How the tree divides them, from the root down to a depth that can still be drawn.

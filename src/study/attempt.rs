@@ -208,7 +208,7 @@ impl Trial<'_> {
             let samples = meters.samples();
             if samples.is_power_of_two() || samples == settings.image.samples {
                 let price = self.price(start.elapsed(), lit.rays + meters.rays(), lit.bytes);
-                if self.tell_samples(samples, price, Found::of_samples(meters.irradiance())).is_break() {
+                if self.tell_samples(samples, price, Found::of_readings(&meters.readings())).is_break() {
                     return Ok(());
                 }
             }

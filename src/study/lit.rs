@@ -102,5 +102,5 @@ pub fn bytes_of_radiosity(world: &World, settings: &Settings) -> u64 {
 
 /// Photons where they landed, and the tree of them.
 pub fn bytes_of_photons(maps: &PhotonMaps) -> u64 {
-    (2 * size_of::<Photon>() * maps.photons().len()) as u64
+    (2 * size_of::<Photon>() * maps.kept()) as u64
 }

@@ -7,6 +7,7 @@ use crate::mesh::Patch;
 use crate::methods::radiosity::{self, FullMatrix};
 use crate::methods::transport::Transport;
 use crate::methods::{Method, PhotonSettings, Settings, Step};
+use crate::scene::Lobes;
 use crate::solution::{Photon, PhotonSolution, Progress, Solution, VertexShares};
 use crate::world::World;
 use std::sync::Arc;
@@ -198,10 +199,12 @@ pub fn start_method(world: Arc<World>, settings: &Settings) -> Result<Box<dyn Me
 pub fn check_photons(transport: &Transport, settings: &PhotonSettings) -> Result<(), Refused> {
     let world = &transport.world;
     let has_caustics = transport.effects.contains(Effect::Caustics);
-    // Photons of the caustic map end where they land first.
     let caustic = if has_caustics { u64::from(settings.caustic_count) } else { 0 };
     let photons = u64::from(settings.count) + caustic;
-    let landings = (f64::from(settings.count) * landings_per_photon(world)) as u64 + caustic;
+    // Photons of the caustic map end where they land first on what is not specular.
+    let landings = f64::from(settings.count) * landings_per_photon(world, Lobes::reflectance)
+        + caustic as f64 * landings_per_photon(world, Lobes::specular_reflectance);
+    let landings = landings as u64;
     let (needed, available) = (landings.saturating_mul(BYTES_PER_LANDING), available_memory());
     if needed > available {
         return Err(Refused::Photons { photons, landings, needed_mib: needed >> 20, available_mib: available >> 20 });
@@ -209,13 +212,14 @@ pub fn check_photons(transport: &Transport, settings: &PhotonSettings) -> Result
     Ok(())
 }
 
-/// How often a photon lands on diffuse surfaces until one absorbs it, where it meets all of them alike: Σ ρⁿ.
-fn landings_per_photon(world: &World) -> f64 {
+/// How often a photon arrives at a surface until it is absorbed, where it meets all of them alike: Σ rⁿ, with the share r
+/// that goes on.
+fn landings_per_photon(world: &World, goes_on: fn(&Lobes) -> f32) -> f64 {
     let materials = &world.scene.materials;
-    let reflectance = |patch: &Patch| f64::from(materials[patch.material as usize].lobes().diffuse.max_element());
+    let share = |patch: &Patch| f64::from(goes_on(&materials[patch.material as usize].lobes()));
     let area = world.mesh.area();
-    let reflected: f64 = world.mesh.patches.iter().map(|patch| patch.area * reflectance(patch)).sum();
-    if area > 0.0 { 1.0 / (1.0 - (reflected / area).min(HIGHEST_REFLECTANCE)) } else { 1.0 }
+    let kept: f64 = world.mesh.patches.iter().map(|patch| patch.area * share(patch)).sum();
+    if area > 0.0 { 1.0 / (1.0 - (kept / area).min(HIGHEST_REFLECTANCE)) } else { 1.0 }
 }
 
 /// Bytes that can be had without pushing anything out of memory, or a careful guess where the system does not say.

@@ -143,3 +143,41 @@ fn options_of_another_method_are_exit_code_2() {
         assert_contains(&refusal(&folder, arguments, 2), &reasons);
     }
 }
+
+/// A black floor and a grey one under a lamp get the same light, by every method that knows it; and whoever leaves light out says so.
+#[test]
+fn light_on_a_black_floor_is_known_or_its_lack_is_told() {
+    let folder = folder();
+    let square = |half: f32, y: f32, face: &str| {
+        format!("v -{half} {y} -{half}\nv -{half} {y} {half}\nv {half} {y} {half}\nv {half} {y} -{half}\nf {face}\n")
+    };
+    let mtl = "newmtl black\nKd 0 0 0\nillum 1\nnewmtl lamp\nKd 0 0 0\nKe 10 10 10\nillum 1\n\
+               newmtl mirror\nKd 0 0 0\nKs 0.8 0.8 0.8\nillum 3\n";
+    std::fs::write(folder.path().join("m.mtl"), mtl).expect("a file");
+    let obj = format!(
+        "mtllib m.mtl\nusemtl black\n{}usemtl lamp\n{}usemtl mirror\n{}",
+        square(2.0, 0.0, "1 2 3 4"),
+        square(0.25, 2.0, "5 6 7 8"),
+        square(4.0, 3.0, "12 11 10 9")
+    );
+    std::fs::write(folder.path().join("black.obj"), obj).expect("a file");
+    std::fs::write(folder.path().join("points"), "-1.5 0 0.3 0 1 0\n").expect("a file");
+    let probe = |method: &str| format!("probe black.obj --points points --method {method}");
+    let truth = json(&folder, &format!("{} --samples 32768 --json", probe("reference")));
+    let truth = number(&truth["points"][0]["irradiance"][0]);
+    for method in ["photon-map", "final-gather", "caustics"] {
+        let report = json(&folder, &format!("{} --json", probe(method)));
+        let point = &report["points"][0];
+        let value = number(&point["irradiance"][0]);
+        let error =
+            point["relative_error"].as_f64().map_or_else(|| number(&point["standard_error"][0]), |error| error * value);
+        // 100 photons: a tenth. The truth is known better by far.
+        assert!((0.09..0.11).contains(&(error / value)), "{method}: {point}");
+        assert!((value - truth).abs() < 4.0 * error, "{method}: {point}, {truth}");
+        assert_eq!(stderr(&crate::run(&folder, &probe(method))), "", "{method}");
+    }
+    let output = crate::run(&folder, &probe("radiosity"));
+    assert_contains(stderr(&output), &["--method radiosity leaves out light", "mirrors", "reference know it"]);
+    let single = json(&folder, &format!("{} --samples 1 --json", probe("final-gather")));
+    assert!(single["points"][0]["standard_error"][0].is_null(), "{single}");
+}

@@ -107,8 +107,9 @@ fn each_specular_surface_calls_for_its_own_effects() {
 }
 
 #[test]
-fn caustics_take_an_emitter_before_them_and_a_diffuse_surface_after_them() {
-    let glass = [DirectLight, Shadows, SpecularReflection, Transmission];
+fn caustics_take_an_emitter_before_them() {
+    // What glass gathers on black walls no picture shows, but it is part of their irradiance.
+    let glass = [DirectLight, Shadows, SpecularReflection, Transmission, Caustics];
     let black = Quads::room("lamp", "black", "black").block("glass");
     assert_needed("glass in a black room", &plan_of(black.scene()), &glass);
     // The lamp shines down and the mirror hangs above it, so that it reflects the floor's light alone.
@@ -176,7 +177,11 @@ fn reasons_give_the_figures() {
         (Colour, "Red, green and blue differ in the materials of 5 of 12 polygons."),
         (SpecularReflection, "Of 12 polygons, 0 are mirrors and 6 glass, which reflects too."),
         (Gloss, "None of 12 polygons that light reaches is glossy."),
-        (Transmission, "Of 12 polygons, 6 are glass, and 0 let light straight through."),
+        (
+            Transmission,
+            "Of 12 polygons, 6 are glass (√Tf at each boundary, so that a body counts Tf once), and 0 let light straight \
+             through (Tf at each).",
+        ),
         (
             Caustics,
             "Emitters may shine on specular polygons (0 mirrors, 0 glossy, 6 of glass and 0 otherwise clear), and 5 are \

@@ -1,6 +1,7 @@
 //! Photons against closed forms, against brute force, and against their own books.
 
 mod agreement;
+mod black;
 mod boundary;
 mod furnace;
 mod glass;

@@ -66,7 +66,7 @@ fn event(number: usize, place: &TrailPlace) -> &'static str {
 fn estimate(ui: &mut Ui, gathered: &Gathered) {
     let irradiance = format::rgb(gathered.irradiance, "W/m²");
     figure(ui, "Irradiance E", irradiance, "The estimate from the photons, in red, green and blue");
-    let used = format::count(gathered.used.len() as u64);
+    let used = format::count(gathered.photons.into());
     figure(ui, "Photons k", used, "Those that count, marked green");
     let rejected = format::count(gathered.rejected.len() as u64);
     let hover = "As near, but on a side turned away, off the plane, behind a wall or round a corner: marked red";

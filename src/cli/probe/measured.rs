@@ -19,11 +19,13 @@ pub struct Measured {
 pub enum Quality {
     /// Of radiosity, which does not tell.
     Unknown,
-    /// Of an estimate from the photons within a radius, m.
+    /// Of an estimate from the photons within a radius, m: the relative standard error of its noise, infinite where no photon
+    /// landed.
     Estimate { relative_error: f32, radius: f32, photons: u32 },
     /// Of a mean over passes: its standard error, W/m², by channel.
     Mean { standard_error: [f64; 3], passes: u64 },
-    /// Of a mean over samples as a picture has them: at most its standard error, W/m², by channel. A bias is not in it.
+    /// Of a mean over samples as a picture has them: at most its standard error, W/m², by channel, that of the photons that all
+    /// samples share included. Infinite where it cannot be told from one sample. A bias is not in it.
     Samples { standard_error: [f64; 3], samples: u64 },
     /// Of a mean over paths: its standard error, W/m², by channel.
     Paths { standard_error: [f64; 3], paths: u64 },

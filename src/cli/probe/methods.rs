@@ -11,6 +11,7 @@ use crate::math::rgb::Rgb;
 use crate::math::stats::Moments;
 use crate::methods::Settings;
 use crate::methods::ambient_occlusion::shares;
+use crate::methods::image::Reading;
 use crate::methods::path_trace::{Sensor, Sensors};
 use crate::methods::photon_map::{Estimate, ProgressivePoints, Scratch, Which};
 use crate::methods::transport::{Surface, Transport};
@@ -132,7 +133,13 @@ pub fn by_view(
     while meters.samples() < wanted && (meters.samples() == 0 || start.elapsed() < time) {
         meters.step(&Cancel::default());
     }
-    Ok(points.iter().zip(meters.irradiance()).map(|(&at, channels)| mean_over_samples(at, channels)).collect())
+    let samples = meters.samples().into();
+    let measure = |(&at, reading): (&ProbePoint, Reading)| Measured {
+        at,
+        value: Rgb::from_array(reading.irradiance.map(|value| value as f32)),
+        quality: Quality::Samples { standard_error: reading.standard_error, samples },
+    };
+    Ok(points.iter().zip(meters.readings()).map(measure).collect())
 }
 
 /// The surface at each point; `reason` says why there must be one.
@@ -145,13 +152,10 @@ fn surfaces(
     points.iter().map(surface).collect()
 }
 
-fn mean_over_samples(at: ProbePoint, channels: &[Moments; 3]) -> Measured {
-    let standard_error = channels.each_ref().map(Moments::standard_error);
-    Measured { at, value: mean(channels), quality: Quality::Samples { standard_error, samples: channels[0].count() } }
-}
-
 fn mean_over_passes(at: ProbePoint, channels: &[Moments; 3]) -> Measured {
-    let standard_error = channels.each_ref().map(Moments::standard_error);
+    // One pass alone does not tell how passes scatter.
+    let error = |channel: &Moments| if channel.count() > 1 { channel.standard_error() } else { f64::INFINITY };
+    let standard_error = channels.each_ref().map(error);
     Measured { at, value: mean(channels), quality: Quality::Mean { standard_error, passes: channels[0].count() } }
 }
 

@@ -13,18 +13,20 @@ use super::solve::check_method;
 use super::{CliError, refuse, values};
 use crate::accuracy::{self, Found};
 use crate::choice::{Choice, parse};
+use crate::effects::{Effect, needed};
 use crate::methods::image::Meters;
 use crate::methods::{ImageSettings, OcclusionSettings, Settings};
 use crate::solution::CameraView;
 use crate::worker::Subject;
+use crate::world::World;
 use std::path::PathBuf;
 
 #[derive(clap::Args, Debug)]
 pub struct Options {
     #[command(flatten)]
     run: RunOptions,
-    /// What is computed: light by radiosity or photon-map; as the views radiosity-direct, final-gather or diffuse-ao show it;
-    /// by path tracing as reference; or ambient-occlusion [default: radiosity, or with --error, or --time, what tells its own
+    /// What is computed: light by radiosity or photon-map; as the views radiosity-direct, final-gather, caustics or diffuse-ao
+    /// show it; by path tracing as reference; or ambient-occlusion [default: radiosity, or with --error, or --time, what tells its own
     /// error]
     #[arg(long, value_name = "METHOD", value_parser = parse::<Method>)]
     method: Option<Method>,
@@ -85,6 +87,7 @@ impl Choice for Method {
         Self::View(Meters::VIEWS[0]),
         Self::View(Meters::VIEWS[1]),
         Self::View(Meters::VIEWS[2]),
+        Self::View(Meters::VIEWS[3]),
         Self::Reference,
         Self::AmbientOcclusion,
     ];
@@ -133,6 +136,9 @@ pub fn run(options: &Options) -> Result<(), CliError> {
     if let Some(budget) = budget {
         let (measured, account) = budget::measure(&budget, options, world, &points)?;
         return measured::print(&measured, None, Some(&account), options.json);
+    }
+    if let Some(missing) = options.method().missing_light(&world) {
+        eprintln!("{missing}");
     }
     let measured = match options.method() {
         Method::Light(LightMethod::Radiosity) => methods::by_radiosity(options, world, &points)?,
@@ -208,6 +214,23 @@ impl Options {
 }
 
 impl Method {
+    /// What is said of light that the method does not know, where the scene has such light.
+    fn missing_light(self, world: &World) -> Option<String> {
+        let knows_caustics = match self {
+            Self::Light(LightMethod::Radiosity) => false,
+            Self::Light(LightMethod::PhotonMap) | Self::Reference | Self::AmbientOcclusion => true,
+            Self::View(view) => view.needs_photons(),
+        };
+        let is_missing = !knows_caustics && needed(world).contains(Effect::Caustics);
+        is_missing.then(|| {
+            format!(
+                "note: --method {} leaves out light that reaches a point over mirrors, gloss or glass, of which this scene may \
+                 have some, and all light inside of glass; photon-map, final-gather and reference know it",
+                self.name()
+            )
+        })
+    }
+
     /// The view whose effects it simulates.
     fn view(self) -> Option<CameraView> {
         match self {

@@ -4,6 +4,7 @@
 //! so that a lookup that costs no search pays (the idea of Christensen 1999, who keeps irradiance at photons). An element
 //! knows how much of it is exposed, and photons never cross its edges: its mean irradiance has no bias, not even in corners.
 
+use super::photon_batches::{BATCHES, ByBatch, PhotonBatches};
 use crate::math::rgb::{Rgb, Rgb64};
 use crate::methods::photon_map::PhotonMaps;
 use crate::methods::transport::Surface;
@@ -22,9 +23,34 @@ pub struct ArrivalMaps {
     maps: Arc<PhotonMaps>,
     /// For each photon the element on which it landed.
     elements: Vec<u32>,
-    all: OnceLock<Vec<Rgb>>,
-    caustic: OnceLock<Vec<Rgb>>,
-    filtered: [[OnceLock<Vec<Rgb>>; TOLD_APART]; TOLD_APART],
+    all: Sums,
+    caustic: Sums,
+    filtered: [[Sums; TOLD_APART]; TOLD_APART],
+}
+
+/// E of each element by photons that pass a filter, W/m², made when it is first asked for.
+#[derive(Default)]
+struct Sums {
+    whole: OnceLock<Vec<Rgb>>,
+    /// The parts of it that batches of photons make up.
+    batches: OnceLock<Vec<ByBatch>>,
+}
+
+/// Whose arrivals are asked for: of photons that go on over `events` specular surfaces to a diffuse one, which sends them to
+/// the eye along `to_eye`.
+#[derive(Clone, Copy)]
+pub struct Onward<'a> {
+    pub matcher: &'a PathMatcher,
+    pub events: usize,
+    pub to_eye: Path,
+}
+
+impl Onward<'_> {
+    fn passes(&self, photon: &Photon) -> bool {
+        let landed = photon.path.then(Scattering::Diffuse);
+        let from_light = (0..self.events).fold(landed, |path, _| path.then(Scattering::Specular));
+        self.matcher.passes(from_light, Some(Scattering::Diffuse), self.to_eye)
+    }
 }
 
 impl ArrivalMaps {
@@ -35,50 +61,83 @@ impl ArrivalMaps {
             element.unwrap_or(NOWHERE)
         };
         let elements = maps.photons().par_iter().map(element).collect();
-        let (all, caustic) = (OnceLock::new(), OnceLock::new());
-        Self { maps, elements, all, caustic, filtered: Default::default() }
+        Self { maps, elements, all: Sums::default(), caustic: Sums::default(), filtered: Default::default() }
     }
 
-    /// E, W/m², at a place, by photons that go on from there over `events` specular surfaces to a diffuse one, which sends
-    /// them to the eye along `to_eye`. Surfaces that are not meshed are not known to be lit.
-    pub fn irradiance(&self, matcher: &PathMatcher, surface: &Surface, events: usize, to_eye: Path) -> Rgb {
-        if matcher.passes_all() {
-            return self.at(self.all.get_or_init(|| self.sum(|_| true)), surface);
+    /// E, W/m², at a place, by the photons that are asked for. Surfaces that are not meshed are not known to be lit. What
+    /// batches of photons say goes to `batches`, if there are any, `weight` times.
+    pub fn irradiance(
+        &self,
+        onward: Onward<'_>,
+        surface: &Surface,
+        weight: Rgb,
+        batches: Option<&mut PhotonBatches>,
+    ) -> Rgb {
+        if onward.matcher.passes_all() {
+            return self.at(&self.all, |_| true, surface, weight, batches);
         }
-        let kept = self.filtered.get(events).and_then(|row| row.get(to_eye.len()));
-        kept.map_or(Rgb::ZERO, |kept| {
-            let passes = |photon: &Photon| {
-                let landed = photon.path.then(Scattering::Diffuse);
-                let from_light = (0..events).fold(landed, |path, _| path.then(Scattering::Specular));
-                matcher.passes(from_light, Some(Scattering::Diffuse), to_eye)
-            };
-            self.at(kept.get_or_init(|| self.sum(passes)), surface)
-        })
+        let kept = self.filtered.get(onward.events).and_then(|row| row.get(onward.to_eye.len()));
+        kept.map_or(Rgb::ZERO, |sums| self.at(sums, |photon| onward.passes(photon), surface, weight, batches))
     }
 
-    /// E, W/m², at a place by the photons of caustics alone.
-    pub fn caustic_irradiance(&self, surface: &Surface) -> Rgb {
-        self.at(self.caustic.get_or_init(|| self.sum(|photon| photon.path.is_caustic())), surface)
+    /// The same of the photons of caustics alone, whatever comes of them.
+    pub fn caustic_irradiance(&self, surface: &Surface, weight: Rgb, batches: Option<&mut PhotonBatches>) -> Rgb {
+        self.at(&self.caustic, |photon| photon.path.is_caustic(), surface, weight, batches)
     }
 
-    fn at(&self, irradiance: &[Rgb], surface: &Surface) -> Rgb {
+    fn at(
+        &self,
+        sums: &Sums,
+        passes: impl Fn(&Photon) -> bool,
+        surface: &Surface,
+        weight: Rgb,
+        batches: Option<&mut PhotonBatches>,
+    ) -> Rgb {
         let element = self.maps.transport().world.mesh.element_at(surface.polygon, surface.is_front, surface.point);
-        element.map_or(Rgb::ZERO, |element| irradiance[element as usize])
+        let Some(element) = element else { return Rgb::ZERO };
+        if let Some(batches) = batches {
+            let by_batch = sums.batches.get_or_init(|| self.sum_batches(&passes));
+            batches.add(weight, &by_batch[element as usize]);
+        }
+        sums.whole.get_or_init(|| self.sum(&passes))[element as usize]
     }
 
     /// E of each element by photons that pass, W/m². On one thread: those that wait for it must not be given other work.
     fn sum(&self, passes: impl Fn(&Photon) -> bool) -> Vec<Rgb> {
+        let mut flux = vec![Rgb64::ZERO; self.maps.transport().world.mesh.elements.len()];
+        self.for_each(passes, |photon, element| {
+            flux[element] += (self.maps.scale(photon) * photon.flux).as_dvec3();
+        });
         let mesh = &self.maps.transport().world.mesh;
-        let mut flux = vec![Rgb64::ZERO; mesh.elements.len()];
-        for (photon, &element) in self.maps.photons().iter().zip(&self.elements) {
-            if element != NOWHERE && passes(photon) {
-                flux[element as usize] += (self.maps.scale(photon) * photon.flux).as_dvec3();
-            }
-        }
         let density = flux.iter().zip(&mesh.elements);
         let density =
             density.map(|(flux, element)| if element.area > 0.0 { *flux / element.area } else { Rgb64::ZERO });
         density.map(|density| density.as_vec3()).collect()
+    }
+
+    /// The same for each batch of photons by itself. Single precision is enough for a spread.
+    fn sum_batches(&self, passes: impl Fn(&Photon) -> bool) -> Vec<ByBatch> {
+        let mesh = &self.maps.transport().world.mesh;
+        let mut density = vec![ByBatch::default(); mesh.elements.len()];
+        self.for_each(passes, |photon, element| {
+            let area = mesh.elements[element].area;
+            if area > 0.0 {
+                let light = self.maps.scale(photon) * photon.flux / area as f32;
+                let batch = self.maps.batch(photon, BATCHES);
+                for (channel, light) in density[element].iter_mut().zip(light.to_array()) {
+                    channel[batch] += light;
+                }
+            }
+        });
+        density
+    }
+
+    fn for_each(&self, passes: impl Fn(&Photon) -> bool, mut visit: impl FnMut(&Photon, usize)) {
+        for (photon, &element) in self.maps.photons().iter().zip(&self.elements) {
+            if element != NOWHERE && passes(photon) {
+                visit(photon, element as usize);
+            }
+        }
     }
 }
 

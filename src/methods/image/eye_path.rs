@@ -1,6 +1,7 @@
 //! The way of a ray from the eye over specular surfaces, to wherever light is known (Whitted 1980; Kajiya 1986).
 
 use super::draws::Draws;
+use super::photon_batches::PhotonBatches;
 use crate::math::rgb::Rgb;
 use crate::methods::cost::Cost;
 use crate::methods::photon_map::Scratch;
@@ -30,6 +31,11 @@ pub struct Seen<'a> {
 pub trait DiffuseLight: Send + Sync {
     /// Radiance that the diffuse lobe of the place sends towards the eye, W/(m²·sr).
     fn leaving(&self, seen: &Seen<'_>, tools: &mut Tools<'_>) -> Rgb;
+
+    /// Whether this light is shown on a surface: on what has a diffuse lobe.
+    fn is_shown_on(&self, bsdf: &Bsdf) -> bool {
+        bsdf.diffuse() != Rgb::ZERO
+    }
 }
 
 /// What each sample of a pixel works with.
@@ -38,6 +44,8 @@ pub struct Tools<'a> {
     pub scratch: &'a mut Scratch,
     /// Of all samples so far.
     pub cost: &'a mut Cost,
+    /// What batches of photons say each for itself, where that is asked for.
+    pub batches: Option<&'a mut PhotonBatches>,
 }
 
 /// What is seen along rays from the eye.
@@ -103,7 +111,7 @@ impl EyePath {
             sight.radiance += leg.throughput * leg.narrowing * emitted;
         }
         let bsdf = self.transport.bsdf(&surface, -leg.ray.direction, &leg.media);
-        if bsdf.diffuse() != Rgb::ZERO {
+        if self.light.is_shown_on(&bsdf) {
             let seen =
                 Seen { surface: &surface, bsdf: &bsdf.only(Scattering::Diffuse), to_eye: leg.to_eye, media: leg.media };
             sight.radiance += leg.throughput * leg.narrowing * self.light.leaving(&seen, tools);

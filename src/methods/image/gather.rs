@@ -1,6 +1,6 @@
 //! Light between diffuse surfaces, gathered at each place that is seen by rays into the photon map (Jensen 1996).
 
-use super::arrivals::ArrivalMaps;
+use super::arrivals::{ArrivalMaps, Onward};
 use super::direct;
 use super::draws::Use;
 use super::eye_path::{DiffuseLight, Seen, Tools};
@@ -9,7 +9,7 @@ use super::photon_light::PhotonLight;
 use crate::effects::Effect;
 use crate::math::random::Stream;
 use crate::math::rgb::Rgb;
-use crate::math::warp::{cosine_hemisphere, frame};
+use crate::math::warp::cosine_above;
 use crate::methods::transport::{Bsdf, Media, Surface, Transport};
 use crate::solution::{Path, PathMatcher, Scattering};
 use crate::tracer::Ray;
@@ -60,7 +60,7 @@ impl GatherLight {
             tools.cost.save(Effect::Interreflection, count);
             return Rgb::ZERO;
         }
-        let around = frame(seen.surface.normal);
+        let weight = seen.bsdf.diffuse() / count as f32;
         let mut sum = Rgb::ZERO;
         for i in 0..count {
             // Only what the eye sees directly is the same in every sample of a pixel.
@@ -69,19 +69,20 @@ impl GatherLight {
             } else {
                 stratified(i, count, &mut tools.draws.stream)
             };
-            let direction = around * cosine_hemisphere(at);
+            let direction = cosine_above(seen.surface.normal, seen.surface.facing, at);
             if direction.dot(seen.surface.facing) > 0.0 {
                 let ray = self.transport.leave(seen.surface, direction);
                 // A filter tells paths apart by their last bounces, which are known only without a further one.
-                sum += self.arriving(seen.to_eye, ray, seen.media, self.matcher.passes_all(), tools);
+                let gathering = Gathering { to_eye: seen.to_eye, refines: self.matcher.passes_all(), weight };
+                sum += self.arriving(&gathering, ray, seen.media, tools);
             }
         }
         seen.bsdf.diffuse() * sum / count as f32
     }
 
     /// Radiance that arrives along a gathering ray, without what comes from emitters directly or over specular surfaces, which
-    /// is known already. With `refines`, what is near is gathered one bounce further.
-    fn arriving(&self, to_eye: Path, mut ray: Ray, mut media: Media, refines: bool, tools: &mut Tools<'_>) -> Rgb {
+    /// is known already.
+    fn arriving(&self, gathering: &Gathering, mut ray: Ray, mut media: Media, tools: &mut Tools<'_>) -> Rgb {
         let mut radiance = Rgb::ZERO;
         let mut throughput = Rgb::ONE;
         for event in 0..MAX_EVENTS {
@@ -90,11 +91,14 @@ impl GatherLight {
             let bsdf = self.transport.bsdf(&surface, -ray.direction, &media);
             if bsdf.diffuse() != Rgb::ZERO {
                 let is_near = event == 0 && surface.distance < NEAR_ELEMENTS * self.transport.world.element_size;
-                if refines && is_near {
+                if gathering.refines && is_near {
                     let bsdf = bsdf.only(Scattering::Diffuse);
-                    radiance += throughput * self.leaving_near(&surface, &bsdf, to_eye, media, tools);
+                    let near = gathering.further(throughput * bsdf.diffuse());
+                    radiance += throughput * self.leaving_near(&near, &surface, &bsdf, media, tools);
                 } else {
-                    let irradiance = self.arrivals.irradiance(&self.matcher, &surface, event, to_eye);
+                    let weight = gathering.weight * throughput * bsdf.diffuse() / PI;
+                    let onward = Onward { matcher: &self.matcher, events: event, to_eye: gathering.to_eye };
+                    let irradiance = self.arrivals.irradiance(onward, &surface, weight, tools.batches.as_deref_mut());
                     radiance += throughput * bsdf.diffuse() * irradiance / PI;
                 }
             }
@@ -114,15 +118,42 @@ impl GatherLight {
     }
 
     /// Radiance that a place near by sends: its own direct light, the photons of caustics, and one gathering ray further.
-    fn leaving_near(&self, surface: &Surface, bsdf: &Bsdf, to_eye: Path, media: Media, tools: &mut Tools<'_>) -> Rgb {
+    /// `gathering` is that of the place: its weight is for radiance there that arrives.
+    fn leaving_near(
+        &self,
+        gathering: &Gathering,
+        surface: &Surface,
+        bsdf: &Bsdf,
+        media: Media,
+        tools: &mut Tools<'_>,
+    ) -> Rgb {
         let direct = direct::random(&self.transport, surface, bsdf, tools);
-        let caustic = self.arrivals.caustic_irradiance(surface);
-        let direction = frame(surface.normal) * cosine_hemisphere(tools.draws.stream.uniform2());
+        let weight = gathering.weight / PI;
+        let caustic = self.arrivals.caustic_irradiance(surface, weight, tools.batches.as_deref_mut());
+        let direction = cosine_above(surface.normal, surface.facing, tools.draws.stream.uniform2());
         let indirect = if direction.dot(surface.facing) > 0.0 {
-            self.arriving(to_eye, self.transport.leave(surface, direction), media, false, tools)
+            self.arriving(gathering, self.transport.leave(surface, direction), media, tools)
         } else {
             Rgb::ZERO
         };
         direct + bsdf.diffuse() * (caustic / PI + indirect)
+    }
+}
+
+/// What a gathering ray is for.
+#[derive(Clone, Copy)]
+struct Gathering {
+    /// Events from the eye to the place that gathers.
+    to_eye: Path,
+    /// Whether what is near is gathered one bounce further.
+    refines: bool,
+    /// What radiance that arrives along the ray counts.
+    weight: Rgb,
+}
+
+impl Gathering {
+    /// One bounce further, off what sends on this share.
+    fn further(&self, share: Rgb) -> Self {
+        Self { refines: false, weight: self.weight * share, ..*self }
     }
 }

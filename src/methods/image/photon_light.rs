@@ -3,7 +3,8 @@
 use super::eye_path::{DiffuseLight, Seen, Tools};
 use crate::effects::{Effect, Effects};
 use crate::math::rgb::Rgb;
-use crate::methods::photon_map::{PhotonFilter, PhotonMaps, Which};
+use crate::methods::photon_map::{Estimate, PhotonFilter, PhotonMaps, Which};
+use crate::methods::transport::Bsdf;
 use crate::solution::{Path, PathMatcher, Scattering};
 use std::f32::consts::PI;
 use std::sync::Arc;
@@ -56,11 +57,19 @@ impl DiffuseLight for PhotonLight {
             None if self.is_caustic => Which::Caustics,
             None => Which::All,
         };
-        let irradiance = self.maps.irradiance(seen.surface, which, tools.scratch).irradiance;
-        let reflected = match self.shown {
-            Shown::Irradiance => irradiance,
-            Shown::Radiance => seen.bsdf.diffuse() * irradiance,
+        let Estimate { irradiance, variance, .. } = self.maps.irradiance(seen.surface, which, tools.scratch);
+        let reflectance = match self.shown {
+            Shown::Irradiance => Rgb::ONE,
+            Shown::Radiance => seen.bsdf.diffuse(),
         };
-        reflected / PI
+        if let Some(batches) = &mut tools.batches {
+            batches.add_density(reflectance / PI, variance);
+        }
+        reflectance * irradiance / PI
+    }
+
+    fn is_shown_on(&self, bsdf: &Bsdf) -> bool {
+        // What is seen in mirrors and through glass is shown, and not what arrives at them.
+        bsdf.diffuse() != Rgb::ZERO || self.shown == Shown::Irradiance && !bsdf.is_specular()
     }
 }

@@ -37,6 +37,7 @@ impl Shutter {
         let mut draws = Draws::new(self.seed, pixel, sample);
         let inside = if cell == 1 { draws.spread(Use::Pixel, 0, 1) } else { Vec2::splat(0.5) };
         let place = Vec2::new(x as f32, y as f32) + inside * cell as f32;
-        eye.look(self.eye_rays.through(place.to_array()), self.media, &mut Tools { draws: &mut draws, scratch, cost })
+        let mut tools = Tools { draws: &mut draws, scratch, cost, batches: None };
+        eye.look(self.eye_rays.through(place.to_array()), self.media, &mut tools)
     }
 }

@@ -17,6 +17,9 @@ const PART: u64 = 512;
 #[derive(Default)]
 pub struct Batch {
     pub photons: Vec<Photon>,
+    /// Those that arrived at surfaces without a diffuse lobe. They send no light on from there, but are irradiance all the
+    /// same.
+    pub arrivals: Vec<Photon>,
     pub tally: Tally,
 }
 
@@ -59,7 +62,9 @@ struct Record<'a> {
 
 impl Record<'_> {
     fn store(&mut self, arrival: &Arrival) {
-        self.batch.photons.push(Photon {
+        let lands = arrival.diffuse != Rgb::ZERO;
+        let photons = if lands { &mut self.batch.photons } else { &mut self.batch.arrivals };
+        photons.push(Photon {
             position: arrival.surface.point.into(),
             flux: arrival.flux,
             direction: arrival.direction.into(),
@@ -83,7 +88,7 @@ impl Witness for Record<'_> {
         let is_caustic = arrival.path.is_caustic();
         match self.kind {
             MapKind::Global => {
-                let is_stored = lands && (self.keeps_caustics || !is_caustic);
+                let is_stored = self.keeps_caustics || !is_caustic;
                 if lands {
                     self.batch.tally.land(arrival.path, is_stored);
                 }
@@ -95,6 +100,8 @@ impl Witness for Record<'_> {
             MapKind::Caustic => {
                 if lands && is_caustic {
                     self.batch.tally.land_caustic();
+                }
+                if is_caustic {
                     self.store(arrival);
                 }
                 if roulette.scattering.is_some() {

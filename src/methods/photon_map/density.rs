@@ -4,6 +4,7 @@
 use super::kernel;
 use crate::math::rgb::Rgb;
 use crate::methods::Kernel;
+use std::f32::consts::PI;
 
 /// What photons say of the irradiance at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,6 +20,9 @@ pub struct Estimate {
     /// Relative standard error of the sum over the channels: the spread of a sum of independent photons. Infinite where
     /// there is none.
     pub relative_error: f32,
+    /// Of each channel, (W/m²)²: the square of its standard error. Where no photon landed, that of one photon in the disc:
+    /// what is seen of none may well be one.
+    pub variance: Rgb,
 }
 
 /// Photons of one map weighted and summed.
@@ -27,6 +31,8 @@ pub struct Sum {
     irradiance: Rgb,
     /// Σ of squares of the sum over the channels.
     squares: f32,
+    /// Σ of squares, by channel.
+    variance: Rgb,
     photons: u32,
     radius: f32,
     inside: f32,
@@ -44,13 +50,23 @@ impl Sum {
         let total = light.element_sum();
         self.irradiance += light;
         self.squares += total * total;
+        self.variance += light * light;
         self.photons += 1;
+    }
+
+    /// Where no photon landed, takes in the noise of one with this flux, W.
+    pub fn doubt(&mut self, flux: Rgb) {
+        if self.photons == 0 && self.radius > 0.0 {
+            let light = flux / (PI * self.radius * self.radius * self.inside);
+            self.variance = light * light;
+        }
     }
 
     /// Multiplies all light.
     pub fn scale(&mut self, factor: f32) {
         self.irradiance *= factor;
         self.squares *= factor * factor;
+        self.variance *= factor * factor;
     }
 
     /// The light of both; the disc is that of the one with the larger part of the light.
@@ -60,6 +76,7 @@ impl Sum {
         Self {
             irradiance: self.irradiance + other.irradiance,
             squares: self.squares + other.squares,
+            variance: self.variance + other.variance,
             photons: self.photons + other.photons,
             ..*disc
         }
@@ -78,6 +95,7 @@ impl Sum {
             radius: self.radius,
             inside: self.inside,
             relative_error: if total > 0.0 { self.squares.sqrt() / total } else { f32::INFINITY },
+            variance: self.variance,
         }
     }
 }

@@ -4,7 +4,6 @@ use super::border::{Border, Segment};
 use super::box_tree::{BoxTree, grown};
 use super::facet::{Facet, Limits};
 use crate::math::bounds::Bounds;
-use crate::math::rgb::Rgb;
 use crate::methods::transport::{Surface, Transport};
 use glam::Vec3A;
 use rayon::prelude::*;
@@ -35,13 +34,9 @@ impl Ground {
         }
         let Groups { lowest, is_curved } = groups.flat();
         let border = Border { facets: &facets, groups: &lowest, limits };
-        let is_wanted = |side: usize| {
-            let material = &world.scene.materials[world.scene.polygons[side / 2].material as usize];
-            world.mesh.sides[side].is_some() && material.lobes().diffuse != Rgb::ZERO
-        };
         let segments: Vec<Segment> = (0..lowest.len())
             .into_par_iter()
-            .filter(|&side| is_wanted(side))
+            .filter(|&side| world.mesh.sides[side].is_some())
             .flat_map_iter(|side| border.of(side, &neighbours[side / 2]))
             .collect();
         let tree = BoxTree::new(segments.iter().map(|segment| Bounds::of(segment.ends.map(Into::into))).collect());

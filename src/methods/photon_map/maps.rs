@@ -96,25 +96,60 @@ pub(super) struct Map {
     flux: Vec<Rgb>,
     /// By slot: an index into [`Trees::paths`].
     path: Vec<u32>,
+    emitted: Emitted,
+    /// A bit for each kind of light that it may hold.
+    kinds: u32,
+}
+
+/// The photons that a map is made of, as they left the emitters.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Emitted {
+    /// So far.
+    pub count: u64,
     /// What flux is to be multiplied by while some photons are still to come.
-    scale: f32,
+    pub scale: f32,
 }
 
 impl Map {
     /// Of photons with these indices; `path_of` tells the path of each photon.
-    fn new(photons: &[Photon], indices: &[u32], path_of: &[u32], ground: &Ground, scale: f32) -> Self {
+    fn new(photons: &Kept, indices: &[u32], path_of: &[u32], ground: &Ground, emitted: Emitted, kinds: u32) -> Self {
         let entry = |&index: &u32| {
-            let photon = &photons[index as usize];
+            let photon = photons.get(index);
             let tag = ground.group(photon.side) << KIND_BITS | Kind::of(photon.path) as u32;
             Entry { position: photon.position, index, tag }
         };
         let tree = Tree::new(indices.par_iter().map(entry).collect());
         Self {
-            flux: tree.indices().par_iter().map(|&index| photons[index as usize].flux).collect(),
+            flux: tree.indices().par_iter().map(|&index| photons.get(index).flux).collect(),
             path: tree.indices().par_iter().map(|&index| path_of[index as usize]).collect(),
             tree,
-            scale,
+            emitted,
+            kinds,
         }
+    }
+}
+
+/// All photons of a pass that are kept.
+#[derive(Clone, Default)]
+pub(super) struct Kept {
+    /// Where they landed on diffuse surfaces.
+    pub landed: Arc<Vec<Photon>>,
+    /// Where they arrived at surfaces without a diffuse lobe. Their indices follow on those of the others.
+    pub arrived: Arc<Vec<Photon>>,
+}
+
+impl Kept {
+    fn get(&self, index: u32) -> &Photon {
+        let index = index as usize;
+        self.landed.get(index).unwrap_or_else(|| &self.arrived[index - self.landed.len()])
+    }
+
+    fn iter(&self) -> impl Iterator<Item = &Photon> {
+        self.landed.iter().chain(self.arrived.iter())
+    }
+
+    pub fn len(&self) -> usize {
+        self.landed.len() + self.arrived.len()
     }
 }
 
@@ -122,7 +157,7 @@ impl Map {
 pub(super) struct Trees {
     transport: Arc<Transport>,
     ground: Arc<Ground>,
-    photons: Arc<Vec<Photon>>,
+    photons: Kept,
     global: Map,
     caustic: Map,
     /// The different paths of photons.
@@ -135,17 +170,17 @@ pub(super) struct Trees {
 
 /// What photons are put into trees.
 pub(super) struct Stock {
-    pub photons: Arc<Vec<Photon>>,
+    pub photons: Kept,
     /// Whether those of caustics are from a map of their own.
     pub has_caustic_map: bool,
-    /// All photons that will be emitted by those that were, in each map.
-    pub scales: [f32; 2],
+    /// For each map.
+    pub emitted: [Emitted; 2],
     pub is_complete: bool,
 }
 
 impl Trees {
     pub fn new(transport: Arc<Transport>, ground: Arc<Ground>, stock: Stock) -> Self {
-        let Stock { photons, has_caustic_map, scales, is_complete } = stock;
+        let Stock { photons, has_caustic_map, emitted, is_complete } = stock;
         let (mut paths, mut places) = (Vec::new(), HashMap::new());
         let path_of = photons.iter().map(|photon| {
             *places.entry(photon.path).or_insert_with(|| {
@@ -154,10 +189,12 @@ impl Trees {
             })
         });
         let path_of: Vec<u32> = path_of.collect();
-        let belongs_to_caustics = |index: &u32| has_caustic_map && photons[*index as usize].path.is_caustic();
+        let belongs_to_caustics = |index: &u32| has_caustic_map && photons.get(*index).path.is_caustic();
         let (caustic, global): (Vec<u32>, Vec<u32>) = (0..photons.len() as u32).partition(belongs_to_caustics);
-        let map = |indices: &[u32], scale| Map::new(&photons, indices, &path_of, &ground, scale);
-        let (global, caustic) = (map(&global, scales[0]), map(&caustic, scales[1]));
+        let map = |indices: &[u32], emitted, kinds| Map::new(&photons, indices, &path_of, &ground, emitted, kinds);
+        let (all, of_caustics) = (Which::All.kinds(), Which::Caustics.kinds());
+        let global = map(&global, emitted[0], if has_caustic_map { all & !of_caustics } else { all });
+        let caustic = map(&caustic, emitted[1], of_caustics);
         let splits = Arc::new(global.tree.splits(SPLIT_DEPTH + 1));
         Self { transport, ground, photons, global, caustic, paths, has_caustic_map, splits, is_complete }
     }
@@ -178,7 +215,12 @@ pub struct PhotonMaps {
 impl PhotonMaps {
     /// All photons, as in [`crate::solution::PhotonSolution::photons`].
     pub fn photons(&self) -> &Arc<Vec<Photon>> {
-        &self.trees.photons
+        &self.trees.photons.landed
+    }
+
+    /// How many photons are kept, those on surfaces without a diffuse lobe included.
+    pub fn kept(&self) -> usize {
+        self.trees.photons.len()
     }
 
     /// Whether all photons of the pass are there. If not, those that are stand for all.
@@ -208,8 +250,19 @@ impl PhotonMaps {
 
     /// What the flux of a photon is to be multiplied by while some are still to come: those that are there stand for all.
     pub fn scale(&self, photon: &Photon) -> f32 {
+        self.emitted(photon).scale
+    }
+
+    /// Which of `batches` a photon belongs to, if those of its map are divided into equal ones in the order in which they
+    /// were emitted: all landings of a photon are in one batch, and batches know nothing of each other.
+    pub fn batch(&self, photon: &Photon, batches: usize) -> usize {
+        let place = u64::from(photon.emission) * batches as u64 / self.emitted(photon).count.max(1);
+        (place as usize).min(batches - 1)
+    }
+
+    fn emitted(&self, photon: &Photon) -> Emitted {
         let is_caustic = self.trees.has_caustic_map && photon.path.is_caustic();
-        if is_caustic { self.trees.caustic.scale } else { self.trees.global.scale }
+        if is_caustic { self.trees.caustic.emitted } else { self.trees.global.emitted }
     }
 
     /// Irradiance at a surface, on the side that was met.
@@ -223,6 +276,7 @@ impl PhotonMaps {
     pub fn gathered(&self, at: &Surface) -> Gathered {
         let mut scratch = Scratch::default();
         let (mut used, mut rejected) = (Vec::new(), Vec::new());
+        let is_drawn = |photon: &u32| (*photon as usize) < self.trees.photons.landed.len();
         let mut sum = Sum::default();
         for map in [&self.trees.global, &self.trees.caustic] {
             let mut own = Vec::new();
@@ -240,8 +294,10 @@ impl PhotonMaps {
             used.append(&mut own);
             sum = sum.with(&part);
         }
+        used.retain(is_drawn);
+        rejected.retain(is_drawn);
         rejected.sort_unstable();
-        let Estimate { irradiance, radius, inside, relative_error, .. } = sum.estimate();
+        let Estimate { irradiance, photons, radius, inside, relative_error, .. } = sum.estimate();
         Gathered {
             point: at.point.into(),
             normal: at.facing.into(),
@@ -249,6 +305,7 @@ impl PhotonMaps {
             radius,
             inside,
             relative_error,
+            photons,
             used,
             rejected,
         }
@@ -256,14 +313,19 @@ impl PhotonMaps {
 
     /// Photons of a map, weighted and summed; the slot of each is told to `used`.
     fn sum(&self, map: &Map, at: &Surface, which: Which, scratch: &mut Scratch, used: &mut impl FnMut(u32)) -> Sum {
-        if map.tree.is_empty() {
-            return Sum::default();
-        }
         let Gathering { nearest: limit, kernel, max_radius } = self.gathering;
+        let kinds = which.kinds() & map.kinds;
+        if map.tree.is_empty() || kinds == 0 {
+            let mut sum = Sum::new(max_radius, 1.0);
+            if kinds != 0 {
+                sum.doubt(self.mean_flux(map));
+            }
+            return sum;
+        }
         let Scratch { nearest, horizon } = scratch;
         let trees = &*self.trees;
         let ground = &*trees.ground;
-        let (group, kinds) = (ground.group(at.side()), which.kinds());
+        let group = ground.group(at.side());
         let passes = |found: &Found| match which {
             Which::Filtered(filter) => filter.passes[map.path[found.slot as usize] as usize],
             _ => true,
@@ -275,7 +337,7 @@ impl PhotonMaps {
             found.tag >> KIND_BITS == group
                 && kinds >> (found.tag & 0b11) & 1 == 1
                 && passes(found)
-                && (is_flat || bends_little(ground, at, &trees.photons[map.tree.index(found.slot) as usize]))
+                && (is_flat || bends_little(ground, at, trees.photons.get(map.tree.index(found.slot))))
                 && (is_open || horizon.sees(map.tree.position(found.slot)))
         };
         nearest.begin(limit.unwrap_or(usize::MAX));
@@ -293,8 +355,15 @@ impl PhotonMaps {
             sum.add(map.flux[slot as usize], square_distance, kernel);
             used(slot);
         }
-        sum.scale(map.scale);
+        sum.doubt(self.mean_flux(map));
+        sum.scale(map.emitted.scale);
         sum
+    }
+
+    /// Of the photons of a map as they left the emitters, W.
+    fn mean_flux(&self, map: &Map) -> Rgb {
+        let count = f64::from(map.emitted.scale) * map.emitted.count as f64;
+        if count > 0.0 { (self.trees.transport.emitters().flux() / count).as_vec3() } else { Rgb::ZERO }
     }
 }
 

@@ -1,12 +1,14 @@
 //! Photon mapping (Jensen 1996, 2001): photons are traced from the emitters and kept where they land on diffuse surfaces;
-//! where they are dense, there is much light.
+//! where they are dense, there is much light. Irradiance does not depend on what a surface reflects: where photons arrive at
+//! black surfaces, mirrors and glass they are kept as well, apart from the others, for estimates there.
 //!
 //! - `trace` follows one photon, `batch` many, `tally` keeps their books, `trail` follows one again.
 //! - `tree` and `nearest` find the photons near a point.
 //! - `facet`, `ground`, `border` and `horizon` tell which of them landed on the same surface, and where that ends.
 //! - `maps` puts the two together into an estimate (`density`, `kernel`), and `radius` says over how large a disc.
 //!
-//! With shading normals, photons are scattered round them, but what they carry is counted on the true surface.
+//! With shading normals, photons are scattered round them, none of them into the polygon, but what they carry is counted on the
+//! true surface: irradiance is that of the polygon.
 
 mod batch;
 mod border;
@@ -40,7 +42,7 @@ use crate::methods::{PhotonSettings, Settings, Step, repertoire};
 use crate::solution::{Photon, PhotonSolution, PhotonTrail};
 use batch::Batch;
 use ground::Ground;
-use maps::{Gathering, Stock, Trees};
+use maps::{Emitted, Gathering, Kept, Stock, Trees};
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 use std::time::Duration;
@@ -66,7 +68,7 @@ pub struct PhotonMapping {
     settings: Settings,
     /// Whether photons of caustics have a map of their own.
     has_caustic_map: bool,
-    /// Area on which photons can land, m².
+    /// Area on which photons can land, m²: of diffuse surfaces, or of all where none is diffuse.
     area: f64,
     ground: Arc<OnceLock<Arc<Ground>>>,
     /// The present pass, from 0.
@@ -76,11 +78,11 @@ pub struct PhotonMapping {
     batches: u64,
     tally: Tally,
     /// As handed out.
-    photons: Arc<Vec<Photon>>,
+    photons: Kept,
     /// How far the pass was when they were.
     shown_position: u64,
-    /// Those that came since.
-    fresh: Vec<Photon>,
+    /// Those that came since: on diffuse surfaces, and on others.
+    fresh: [Vec<Photon>; 2],
     /// Radius of the first pass, m, once it is known.
     first_radius: Option<f32>,
     maps: OnceLock<Arc<PhotonMaps>>,
@@ -89,19 +91,20 @@ pub struct PhotonMapping {
 impl PhotonMapping {
     pub fn new(transport: Arc<Transport>, settings: &Settings) -> Self {
         let is_diffuse = |material: u32| transport.lobes(material).diffuse != Rgb::ZERO;
-        let landing = transport.world.mesh.patches.iter().filter(|patch| is_diffuse(patch.material));
+        let patches = &transport.world.mesh.patches;
+        let landing: f64 = patches.iter().filter(|patch| is_diffuse(patch.material)).map(|patch| patch.area).sum();
         Self {
             has_caustic_map: transport.effects.contains(Effect::Caustics) && settings.photons.caustic_count > 0,
-            area: landing.map(|patch| patch.area).sum(),
+            area: if landing > 0.0 { landing } else { transport.world.mesh.area() },
             ground: Arc::default(),
             settings: *settings,
             pass: 0,
             position: 0,
             batches: 0,
             tally: Tally::default(),
-            photons: Arc::default(),
+            photons: Kept::default(),
             shown_position: 0,
-            fresh: Vec::new(),
+            fresh: Default::default(),
             first_radius: None,
             maps: OnceLock::new(),
             transport,
@@ -123,7 +126,8 @@ impl PhotonMapping {
         }
         for mut part in parts {
             self.tally.merge(&part.tally);
-            self.fresh.append(&mut part.photons);
+            self.fresh[0].append(&mut part.photons);
+            self.fresh[1].append(&mut part.arrivals);
         }
         if !self.transport.effects.contains(Effect::Caustics) {
             let skipped = |position| u64::from(self.settings.photons.caustic_count) * position / self.length();
@@ -131,8 +135,9 @@ impl PhotonMapping {
         }
         self.position = to;
         self.batches += 1;
-        let grown = (self.photons.len() + self.fresh.len()) as f64 >= GROWTH * self.photons.len() as f64;
-        if self.is_pass_complete() || (grown && !self.fresh.is_empty()) {
+        let (kept, fresh) = (self.photons.len(), self.fresh.iter().map(Vec::len).sum::<usize>());
+        let grown = (kept + fresh) as f64 >= GROWTH * kept as f64;
+        if self.is_pass_complete() || (grown && fresh > 0) {
             self.show();
         }
         Step::Advanced
@@ -175,7 +180,7 @@ impl PhotonMapping {
             passes: self.passes(),
             elapsed: Duration::ZERO,
             is_complete,
-            photons: self.photons.clone(),
+            photons: self.photons.landed.clone(),
             splits: maps.map(|maps| maps.splits().clone()).unwrap_or_default(),
             max_radius: self.gathering().max_radius,
             energy: self.tally.energy,
@@ -198,14 +203,14 @@ impl PhotonMapping {
 
     fn trees(&self) -> Trees {
         let ground = self.ground.get_or_init(|| Arc::new(Ground::new(&self.transport))).clone();
-        let scale = |kind| {
-            let so_far = self.photons_up_to(kind, self.shown_position);
-            if so_far > 0 { self.count(kind) as f32 / so_far as f32 } else { 0.0 }
+        let emitted = |kind| {
+            let count = self.photons_up_to(kind, self.shown_position);
+            Emitted { count, scale: if count > 0 { self.count(kind) as f32 / count as f32 } else { 0.0 } }
         };
         let stock = Stock {
             photons: self.photons.clone(),
             has_caustic_map: self.has_caustic_map,
-            scales: [scale(MapKind::Global), scale(MapKind::Caustic)],
+            emitted: [emitted(MapKind::Global), emitted(MapKind::Caustic)],
             is_complete: self.shown_position == self.length(),
         };
         Trees::new(self.transport.clone(), ground, stock)
@@ -227,7 +232,9 @@ impl PhotonMapping {
     fn radius(&self, times: f64) -> f32 {
         let PhotonSettings { nearest, max_radius, .. } = self.settings.photons;
         max_radius.unwrap_or_else(|| {
-            let radius = radius::radius_for(times * f64::from(nearest), self.photons.len() as f64, self.area);
+            let is_all_dark = self.photons.landed.is_empty();
+            let landings = if is_all_dark { self.photons.len() } else { self.photons.landed.len() };
+            let radius = radius::radius_for(times * f64::from(nearest), landings as f64, self.area);
             (radius as f32).min(LARGEST_RADIUS * self.transport.world.bounds.radius())
         })
     }
@@ -249,21 +256,15 @@ impl PhotonMapping {
         self.pass = pass;
         self.batches = 0;
         self.tally = Tally::default();
-        self.photons = Arc::default();
+        self.photons = Kept::default();
         self.maps = OnceLock::new();
     }
 
     /// Hands the fresh photons out.
     fn show(&mut self) {
-        match Arc::get_mut(&mut self.photons) {
-            Some(photons) => photons.append(&mut self.fresh),
-            None => {
-                let mut photons = Vec::with_capacity(self.photons.len() + self.fresh.len());
-                photons.extend_from_slice(&self.photons);
-                photons.append(&mut self.fresh);
-                self.photons = Arc::new(photons);
-            }
-        }
+        let [landed, arrived] = &mut self.fresh;
+        append(&mut self.photons.landed, landed);
+        append(&mut self.photons.arrived, arrived);
         self.shown_position = self.position;
         self.maps = OnceLock::new();
         if self.is_pass_complete() && self.first_radius.is_none() {
@@ -316,5 +317,19 @@ impl PhotonMapping {
         let rays = counts.rays as f64 / (counts.emitted + counts.caustic_emitted).max(1) as f64;
         let photons = (RAYS_PER_BATCH / rays.max(1.0)) as u64;
         if photons >= BATCH { BATCH } else { (1 << photons.max(1).ilog2()).max(256) }
+    }
+}
+
+/// Moves `fresh` to the end, in a copy where others still read what was there.
+fn append(photons: &mut Arc<Vec<Photon>>, fresh: &mut Vec<Photon>) {
+    match Arc::get_mut(photons) {
+        Some(photons) => photons.append(fresh),
+        None if fresh.is_empty() => {}
+        None => {
+            let mut copy = Vec::with_capacity(photons.len() + fresh.len());
+            copy.extend_from_slice(photons);
+            copy.append(fresh);
+            *photons = Arc::new(copy);
+        }
     }
 }

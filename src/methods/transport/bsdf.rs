@@ -5,7 +5,7 @@ use super::{Surface, phong};
 use crate::effects::Effect;
 use crate::math::random::Stream;
 use crate::math::rgb::Rgb;
-use crate::math::warp::{cosine_hemisphere, frame};
+use crate::math::warp::{cosine_above, share_above};
 use crate::scene::Lobes;
 use crate::solution::Scattering;
 use glam::{Vec2, Vec3A};
@@ -164,7 +164,8 @@ impl Bsdf {
     }
 
     /// f |cos θ| of the lobes that have a density, 1/sr, per channel: the diffuse one and the glossy one. `direction` is a
-    /// unit vector away from the surface. Nothing passes through the polygon itself, whatever its shading normal says.
+    /// unit vector away from the surface. Nothing passes through the polygon itself, whatever its shading normal says: the
+    /// diffuse lobe is what is above the polygon of a cosine lobe round the shading normal, scaled so that it keeps ρ.
     pub fn value(&self, direction: Vec3A) -> [Rgb; 2] {
         let cosine = direction.dot(self.normal);
         if cosine <= 0.0 || direction.dot(self.facing) <= 0.0 {
@@ -175,7 +176,7 @@ impl Bsdf {
         } else {
             Rgb::ZERO
         };
-        [self.diffuse * (cosine / PI), glossy]
+        [self.diffuse * (cosine / (PI * self.share_above())), glossy]
     }
 
     /// The densities, 1/sr, with which [`Bsdf::sample`] chooses a direction by way of the diffuse lobe and of the glossy one.
@@ -231,10 +232,15 @@ impl Bsdf {
         LOBES.iter().map(|&lobe| self.weight(lobe, light)).sum()
     }
 
+    /// Share of a cosine lobe round the shading normal that is above the polygon.
+    fn share_above(&self) -> f32 {
+        share_above(self.normal, self.facing)
+    }
+
     /// The density of a lobe's directions, 1/sr: 0 where they have none.
     fn density(&self, lobe: Lobe, direction: Vec3A) -> f32 {
         match lobe {
-            Lobe::Diffuse => direction.dot(self.normal).max(0.0) / PI,
+            Lobe::Diffuse => direction.dot(self.normal).max(0.0) / (PI * self.share_above()),
             Lobe::Glossy => phong::density(reflect(self.towards, self.normal), direction, self.exponent),
             Lobe::Mirror | Lobe::Reflected | Lobe::Refracted | Lobe::Straight => 0.0,
         }
@@ -244,7 +250,8 @@ impl Bsdf {
     fn direction(&self, lobe: Lobe, at: Vec2) -> Option<(Vec3A, f32)> {
         match lobe {
             Lobe::Diffuse => {
-                let direction = frame(self.normal) * cosine_hemisphere(at);
+                let direction = cosine_above(self.normal, self.facing, at);
+                // But for rounding it always is.
                 (direction.dot(self.facing) > 0.0).then_some((direction, 1.0))
             }
             Lobe::Glossy => {
