@@ -22,11 +22,13 @@ impl<'a> SurfaceProbe<'a> {
     /// Irradiance E, W/m², at a point on a surface whose lit side faces along the unit `normal`, interpolated between the
     /// vertices of its element, and 0 where something stands on the surface; `None` where no such surface is.
     pub fn irradiance(&self, point: Vec3A, normal: Vec3A) -> Option<Rgb> {
-        let (_, hit) = self.world.meet_at(point, normal)?;
-        if is_covered(&self.world.mesh, &self.world.tracer, self.world.tracer.lift(point, normal), normal) {
+        let (ray, hit) = self.world.meet_at(point, normal)?;
+        // The given point may be under the surface, by its rounding alone.
+        let met = ray.origin + hit.distance * ray.direction;
+        if is_covered(&self.world.mesh, &self.world.tracer, self.world.tracer.lift(met, normal), normal) {
             return Some(Rgb::ZERO);
         }
-        let location = self.world.mesh.locate(hit.polygon, hit.is_front, point)?;
+        let location = self.world.mesh.locate(hit.polygon, hit.is_front, met)?;
         Some(self.world.mesh.interpolate(&location, &self.vertex_irradiance))
     }
 }
