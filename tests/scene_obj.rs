@@ -1,7 +1,7 @@
 //! What the loader makes of OBJ and MTL text: geometry, materials, and that no text makes it panic.
 
 use glam::{DVec3, Vec3};
-use lightwell::scene::{Finding, FindingKind, Material, Scene, SceneError};
+use lightwell::scene::{Finding, FindingKind, Material, Scene, SceneError, Severity};
 use proptest::prelude::*;
 use std::path::Path;
 
@@ -223,6 +223,210 @@ fn a_bare_floor_is_lit_from_above() {
     assert!(light.corners().iter().all(|&corner| lit.positions[corner as usize].y == 1.0));
 }
 
+/// Emitted flux of all channels, W.
+fn emitted(scene: &Scene) -> f64 {
+    let flux = |i: usize| {
+        let single = Scene { polygons: vec![scene.polygons[i]], ..scene.clone() };
+        let exitance = scene.materials[scene.polygons[i].material as usize].exitance();
+        area(&single).length() * f64::from(exitance.element_sum())
+    };
+    (0..scene.polygons.len()).map(flux).sum()
+}
+
+/// A unit square with its front to +z, and the same with other winding and first corner.
+const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+#[test]
+fn a_face_and_its_back_are_kept_where_they_differ() {
+    let mtl = format!("{LAMP}newmtl glass\nKd 0\nNi 1.5\nillum 7\nnewmtl water\nKd 0\nNi 1.33\nillum 7\n");
+    // Materials of front and back, polygons, and how grave it is that one is left out.
+    for (front, back, polygons, severity) in [
+        ("lamp", "lamp", 2, None),
+        ("lamp", "white", 2, None),
+        ("white", "red", 2, None),
+        ("white", "glass", 2, None),
+        ("white", "white", 1, Some(Severity::Note)),
+        ("glass", "glass", 1, Some(Severity::Warning)),
+        ("glass", "water", 1, Some(Severity::Warning)),
+    ] {
+        for ring in ["4 3 2 1", "2 1 4 3"] {
+            let obj = format!("mtllib scene.mtl\n{SQUARE}usemtl {front}\nf 1 2 3 4\nusemtl {back}\nf {ring}\n");
+            let scene = open(obj.as_bytes(), mtl.as_bytes()).expect("the scene opens");
+            assert_eq!(scene.polygons.len(), polygons, "{front} and {back}");
+            let told = scene.findings.iter().find(|finding| finding.kind == FindingKind::DuplicateFace);
+            assert_eq!(told.map(|finding| finding.severity), severity, "{front} and {back}");
+        }
+    }
+}
+
+#[test]
+fn a_face_stated_again_is_left_out_at_whichever_corner_it_begins() {
+    for ring in ["1 2 3 4", "2 3 4 1", "4 1 2 3"] {
+        let scene = scene(&format!("{HEAD}{SQUARE}f 1 2 3 4\nf 4 3 2 1\nf {ring}\nf 3 2 1 4\n"));
+        assert_eq!((scene.polygons.len(), scene.findings.len()), (2, 2), "{:#?}", scene.findings);
+    }
+}
+
+#[test]
+fn a_panel_of_two_lamps_back_to_back_emits_from_both() {
+    // The back has corners of its own. 2 · 1 m² · π · 3 channels · 1 W/(m²·sr).
+    let scene = scene(&format!("{HEAD}{SQUARE}f 1 2 3 4\nv 0 1 0\nv 1 1 0\nv 1 0 0\nv 0 0 0\nf 5 6 7 8\n"));
+    assert!((emitted(&scene) / (6.0 * std::f64::consts::PI) - 1.0).abs() < 1e-6, "{}", emitted(&scene));
+    assert!(area(&scene).length() < 1e-12, "one shines up and one down");
+}
+
+/// Pieces of the only face, each as the places of its corners in the face.
+fn pieces(corners: &[DVec3]) -> Vec<Vec<usize>> {
+    let vertices: String = corners.iter().map(|p| format!("v {} {} {}\n", p.x, p.y, p.z)).collect();
+    let ring: String = (1..=corners.len()).map(|i| format!(" {i}")).collect();
+    let scene = scene(&format!("{HEAD}{vertices}f{ring}\n"));
+    let place = |corner: &u32| {
+        let position = scene.positions[*corner as usize];
+        corners.iter().position(|stated| stated.as_vec3() == position).expect("a corner of the face")
+    };
+    scene.polygons.iter().map(|polygon| polygon.corners().iter().map(place).collect()).collect()
+}
+
+#[test]
+fn warped_quads_are_cut_along_their_shorter_diagonal() {
+    // The left wall of the Cornell box as Cardenas and McGuire measured it (2011): 2.8427 m against 2.8429 m.
+    let wall = [[-1.01, 0.0, 0.99], [-0.99, 0.0, -1.04], [-1.02, 1.99, -1.04], [-1.02, 1.99, 0.99]];
+    let mut wall: Vec<DVec3> = wall.map(DVec3::from_array).to_vec();
+    assert_eq!(pieces(&wall), [[0, 1, 2], [0, 2, 3]]);
+    wall.rotate_left(1);
+    assert_eq!(pieces(&wall), [[0, 1, 3], [1, 2, 3]]);
+    // A saddle has two diagonals of the same length; tinyobjloader takes the one from the second corner.
+    let saddle = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.1], [1.0, 1.0, 0.0], [0.0, 1.0, 0.1]].map(DVec3::from_array);
+    assert_eq!(pieces(&saddle), [[0, 1, 3], [1, 2, 3]]);
+    // The shorter diagonal of this arrow head lies outside of it.
+    let arrow = [[0.0, 0.0, 0.0], [3.0, -1.0, 0.0], [2.5, 0.0, 0.1], [3.0, 1.0, 0.0]].map(DVec3::from_array);
+    assert_eq!(pieces(&arrow), [[0, 1, 2], [0, 2, 3]]);
+}
+
+/// The faces of a closed room of 4 m × 3 m × 4 m with a lamp of 0.2 m × 0.2 m, `at` from the origin.
+fn room_at(at: DVec3) -> String {
+    let corner = |i: u32| at + DVec3::new(f64::from(i & 1) * 4.0, f64::from(i >> 1 & 1) * 3.0, f64::from(i >> 2) * 4.0);
+    let lamp = [[1.9, 1.9], [2.1, 1.9], [2.1, 2.1], [1.9, 2.1]].map(|[x, z]| at + DVec3::new(x, 2.9, z));
+    let vertices: String = (0..8).map(corner).chain(lamp).map(|p| format!("v {} {} {}\n", p.x, p.y, p.z)).collect();
+    let room = "f 1 5 6 2\nf 3 4 8 7\nf 1 2 4 3\nf 5 7 8 6\nf 1 3 7 5\nf 2 6 8 4\n";
+    format!("mtllib scene.mtl\n{vertices}o room\nusemtl white\n{room}o lamp\nusemtl lamp\nf 9 10 11 12\n")
+}
+
+/// A triangle with legs of 1 m, as an object of its own.
+fn triangle_at(name: &str, at: DVec3) -> String {
+    let [a, b, c] = [at, at + DVec3::X, at + DVec3::Y].map(|p| format!("v {} {} {}\n", p.x, p.y, p.z));
+    format!("o {name}\nusemtl white\n{a}{b}{c}f -3 -2 -1\n")
+}
+
+/// What a room of [`room_at`] emits, W: 0.04 m² · π · 3 channels.
+const ROOM_EMITS: f64 = 0.12 * std::f64::consts::PI;
+
+#[test]
+fn a_scene_keeps_its_digits_and_its_coordinates_wherever_it_is() {
+    let near = scene(&room_at(DVec3::ZERO));
+    assert_eq!(near.origin, DVec3::ZERO);
+    for at in [DVec3::splat(3072.0), DVec3::new(-3_000_008.0, 0.0, 8e8)] {
+        let far = scene(&room_at(at));
+        assert_eq!(kinds(&far.findings), [FindingKind::SceneMoved], "{at}");
+        assert!((emitted(&far) / ROOM_EMITS - 1.0).abs() < 1e-5, "{at}: {}", emitted(&far));
+        for (moved, stated) in far.positions.iter().zip(&near.positions) {
+            // The file states coordinates with ε/2 of double precision, that is 6e-8 m at 8e8 m; single precision adds 1e-7 m.
+            let expected = stated.as_dvec3() + at;
+            assert!(far.file_from_scene(*moved).distance(expected) < 6e-7, "{at}");
+            assert!(far.scene_from_file(expected).distance(*moved) < 6e-7, "{at}");
+        }
+    }
+    // Moved by a multiple of a power of two above its extent, what can be halved a few times is the very same.
+    let far = scene(&room_at(DVec3::splat(3072.0)));
+    assert_eq!(far.origin, DVec3::splat(3072.0));
+    assert_eq!(far.positions[..8], near.positions[..8]);
+}
+
+#[test]
+fn coordinates_in_the_file_are_as_short_as_they_were() {
+    let scene = Scene { origin: DVec3::new(3000.0, 0.0, -0.5), ..scene(&room_at(DVec3::ZERO)) };
+    assert_eq!(scene.file_from_scene(Vec3::new(0.25, 0.1, -0.3)), DVec3::new(3000.25, 0.1, -0.8));
+}
+
+#[test]
+fn stray_faces_are_left_out_by_name_and_the_rest_keeps_its_light() {
+    let far = DVec3::splat(3e6);
+    let stray = |name: &str, at: DVec3| triangle_at(name, at);
+    for (strays, subject) in [
+        (stray("stray", DVec3::ZERO), "object 'stray', line 30"),
+        (stray("one", DVec3::ZERO) + &stray("other", 2.0 * far), "object 'one', line 30 and 1 more"),
+        (stray("one", DVec3::ZERO) + &stray("other", DVec3::new(3e6, 0.0, 3e6)), "object 'one', line 30 and 1 more"),
+    ] {
+        let scene = scene(&(room_at(far) + &strays));
+        assert_eq!(scene.polygons.len(), 7);
+        assert_eq!(kinds(&scene.findings), [FindingKind::FaceTooFar, FindingKind::SceneMoved], "{:#?}", scene.findings);
+        assert_eq!(scene.findings[0].subject, subject);
+        assert!(scene.findings[0].problem.contains("single precision"), "{}", scene.findings[0]);
+        assert!((emitted(&scene) / ROOM_EMITS - 1.0).abs() < 1e-5, "{}", emitted(&scene));
+    }
+}
+
+#[test]
+fn what_surrounds_a_scene_or_can_be_held_beside_it_is_kept() {
+    // 32 ε of 4 km are 1.6 cm: 1/256 of the room.
+    let near = triangle_at("near", DVec3::new(0.0, 4000.0, 0.0));
+    // A ground of 100 km has no gap around it.
+    let ground =
+        "o ground\nusemtl white\nv -5e4 0 -5e4\nv -5e4 0 5e4\nv 5e4 0 5e4\nv 5e4 0 -5e4\nf -4 -3 -2 -1\n".to_owned();
+    for beside in [near, ground] {
+        let scene = scene(&(room_at(DVec3::ZERO) + &beside));
+        assert_eq!((scene.polygons.len(), scene.origin), (8, DVec3::ZERO));
+        assert!(scene.findings.is_empty(), "{:#?}", scene.findings);
+    }
+}
+
+#[test]
+fn detail_that_is_lost_is_said() {
+    // One corner of a face of the room is at the origin: no gap lies between.
+    let spike = "o spike\nusemtl white\nv 0 0 0\nf 1 2 -1\n";
+    let scene = scene(&(room_at(DVec3::splat(3e6)) + spike));
+    assert_eq!(kinds(&scene.findings), [FindingKind::SceneMoved, FindingKind::DetailLost], "{:#?}", scene.findings);
+    assert!(scene.findings[1].remedy.contains("object 'spike', line 28"), "{}", scene.findings[1]);
+    assert!((emitted(&scene) / ROOM_EMITS - 1.0).abs() < 1e-5, "{}", emitted(&scene));
+}
+
+/// A strip of a roof from x = 0.7 m on, 2 m long.
+fn strip(width: f64) -> String {
+    let far = 0.7 + width;
+    format!("{HEAD}v 0.7 1 0\nv {far} 1 0\nv {far} 1 2\nv 0.7 1 2\nf 4 3 2 1\n")
+}
+
+#[test]
+fn narrow_faces_are_kept_as_long_as_single_precision_holds_them() {
+    // A unit in the last place of 0.7 is 6e-8.
+    for (width, kind) in [
+        (1e-6, None),
+        (4e-7, None),
+        (1e-7, None),
+        (1e-8, Some(FindingKind::FaceTooNarrow)),
+        (1e-12, Some(FindingKind::FaceTooNarrow)),
+        (0.0, Some(FindingKind::DegenerateFace)),
+    ] {
+        // A triangle beside it, so that there is a scene.
+        let scene = scene(&(strip(width) + "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n"));
+        assert_eq!(kinds(&scene.findings), kind.into_iter().collect::<Vec<_>>(), "{width}");
+        let strip = Scene { polygons: scene.polygons[..scene.polygons.len() - 1].to_vec(), ..scene.clone() };
+        assert_eq!(strip.polygons.len(), usize::from(kind.is_none()), "{width}");
+        assert!(kind.is_some() || area(&strip).normalize().distance(DVec3::Y) < 1e-12, "{width}");
+    }
+}
+
+#[test]
+fn corners_on_a_line_in_decimals_have_no_area_wherever_they_are() {
+    // None of these is on the line when rounded to single precision, or even to double precision.
+    for at in ["", "100000"] {
+        let line: String = (1..=3).map(|i| format!("v {at}0.{i} {at}0.{} {at}0.{}\n", 2 * i, 3 * i)).collect();
+        let scene = scene(&format!("{HEAD}{line}f 1 2 3\nv {at}0 {at}0 {at}0\nv {at}1 {at}0 {at}0\nf 1 4 5\n"));
+        assert!(kinds(&scene.findings).contains(&FindingKind::DegenerateFace), "{at}: {:#?}", scene.findings);
+        assert_eq!(scene.polygons.len(), 1, "{at}");
+    }
+}
+
 /// A rotation by `turns` around an axis that is no axis of the frame.
 fn tilted(point: DVec3, turns: f64) -> DVec3 {
     glam::DQuat::from_axis_angle(DVec3::new(0.4, 0.7, -0.6).normalize(), turns * std::f64::consts::TAU) * point
@@ -242,6 +446,25 @@ proptest! {
         let scene = scene(&format!("{HEAD}{vertices}f 1 2 3 4\n"));
         prop_assert_eq!(scene.polygons.len(), 1);
         prop_assert!(scene.findings.is_empty());
+    }
+
+    /// A quad whose corners are off its plane and off a square by up to a fifth, so that it is convex as seen from above, is
+    /// cut along its shorter diagonal into pieces that both face up and cover what its outline encloses.
+    #[test]
+    fn warped_quads_are_covered(off in prop::collection::vec(-0.2..0.2f64, 12)) {
+        let square = [DVec3::ZERO, DVec3::X, DVec3::ONE - DVec3::Z, DVec3::Y];
+        let corners: Vec<DVec3> = (0..4).map(|i| square[i] + DVec3::new(off[3 * i], off[3 * i + 1], off[3 * i + 2])).collect();
+        let pieces = pieces(&corners);
+        prop_assume!(pieces.len() == 2);
+        let double_area = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a);
+        let areas: Vec<DVec3> = pieces.iter().map(|piece| double_area([0, 1, 2].map(|i| corners[piece[i]]))).collect();
+        prop_assert!(areas.iter().all(|area| area.z > 0.0));
+        let outline = (corners[2] - corners[0]).cross(corners[3] - corners[1]);
+        prop_assert!(areas.iter().sum::<DVec3>().distance(outline) < 1e-12);
+        let [first, second] = [[0, 2], [1, 3]].map(|[a, b]: [usize; 2]| corners[a].distance(corners[b]));
+        // A margin for the rounding that makes two equal.
+        prop_assume!((first / second - 1.0).abs() > 1e-6);
+        prop_assert_eq!(pieces[0].contains(&2), first < second);
     }
 
     /// Star-shaped faces, concave as they come, keep their area, their winding and all of their corners.

@@ -8,7 +8,7 @@ use crate::solution::Solution;
 use crate::viewport::{AdapterChoice, Exposure, ToneCurve};
 use crate::world::World;
 use clap::Args;
-use glam::Vec3;
+use glam::DVec3;
 
 /// From where the scene is seen, and how its radiance becomes colours.
 #[derive(Args, Debug)]
@@ -17,15 +17,15 @@ pub struct CameraOptions {
     /// Width and height in pixels; a diagram fits in
     #[arg(long, value_name = "WxH", default_value = "640x480", value_parser = values::size)]
     pub size: [u32; 2],
-    /// Where the camera stands [default: chosen for the scene]
+    /// Where the camera stands, in the coordinates of the file [default: chosen for the scene]
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = values::vector)]
-    eye: Option<Vec3>,
-    /// What the camera looks at
+    eye: Option<DVec3>,
+    /// What the camera looks at, in the coordinates of the file
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = values::vector)]
-    target: Option<Vec3>,
+    target: Option<DVec3>,
     /// Which way is up
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = values::vector)]
-    up: Option<Vec3>,
+    up: Option<DVec3>,
     /// Vertical angle of view
     #[arg(long, value_name = "DEG", value_parser = values::field_of_view)]
     fov: Option<f32>,
@@ -43,12 +43,13 @@ pub struct CameraOptions {
 impl CameraOptions {
     /// At the scene's viewpoint, as far as no option says otherwise.
     pub fn camera(&self, world: &World) -> Camera {
-        let scene = world.viewpoint;
+        let chosen = world.viewpoint;
+        let place = |point: DVec3| world.scene.scene_from_file(point);
         let viewpoint = Viewpoint {
-            eye: self.eye.unwrap_or(scene.eye),
-            target: self.target.unwrap_or(scene.target),
-            up: self.up.unwrap_or(scene.up),
-            vertical_fov: self.fov.unwrap_or(scene.vertical_fov),
+            eye: self.eye.map_or(chosen.eye, place),
+            target: self.target.map_or(chosen.target, place),
+            up: self.up.map_or(chosen.up, |up| up.as_vec3()),
+            vertical_fov: self.fov.unwrap_or(chosen.vertical_fov),
         };
         Camera::new(&viewpoint, &world.bounds)
     }
@@ -56,5 +57,33 @@ impl CameraOptions {
     /// In stops.
     pub fn exposure_ev(&self, world: &World, solution: Option<&Solution>) -> f32 {
         self.exposure.map_or(Exposure::Automatic, Exposure::Manual).ev(world, solution)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cancel::Cancel;
+    use crate::mesh::MeshSettings;
+    use crate::scene::Scene;
+    use clap::Parser;
+    use glam::Vec3;
+
+    #[derive(Parser)]
+    struct Line {
+        #[command(flatten)]
+        camera: CameraOptions,
+    }
+
+    #[test]
+    fn places_are_those_of_the_file() {
+        let scene = Scene::open("furnace").expect("a built-in scene");
+        let scene = Scene { origin: DVec3::new(3000.0, 0.0, -4096.0), ..scene };
+        let world = World::build(scene, &MeshSettings::default(), &Cancel::default()).expect("a world");
+        let line =
+            Line::parse_from(["", "--eye", "3000.5,0.25,-4095.25", "--target", "3000,0.25,-4095.25", "--up", "0,2,0"]);
+        let viewpoint = line.camera.camera(&world).viewpoint();
+        let near = |a: Vec3, b: [f32; 3]| a.distance(Vec3::from_array(b)) < 1e-6;
+        assert!(near(viewpoint.eye, [0.5, 0.25, 0.75]) && near(viewpoint.target, [0.0, 0.25, 0.75]), "{viewpoint:?}");
     }
 }

@@ -151,8 +151,8 @@ pub fn facts(world: &World, light: &Light, settings: &Settings, frame: &Frame) -
         facts.add("Paths", frame.filter.as_str());
     }
     let viewpoint = frame.camera.viewpoint();
-    facts.add("Eye", viewpoint.eye);
-    facts.add("Target", viewpoint.target);
+    facts.add("Eye", world.scene.file_from_scene(viewpoint.eye));
+    facts.add("Target", world.scene.file_from_scene(viewpoint.target));
     facts.add("Up", viewpoint.up);
     facts.add("Vertical field of view", format!("{} deg", viewpoint.vertical_fov));
     match (frame.view, &light.picked) {

@@ -47,6 +47,7 @@ fn triangles(world: &World) -> usize {
 
 fn report(world: &World) -> Value {
     let (scene, view) = (&world.scene, &world.viewpoint);
+    let in_file = |point| scene.file_from_scene(point).to_array();
     json!({
         "scene": scene.name,
         "polygons": scene.polygons.len(),
@@ -56,12 +57,12 @@ fn report(world: &World) -> Value {
         "element_size": world.element_size,
         "materials": scene.materials.len(),
         "emitters": emitters(world),
-        "extent": { "min": world.bounds.min.to_array(), "max": world.bounds.max.to_array() },
+        "extent": { "min": in_file(world.bounds.min), "max": in_file(world.bounds.max) },
         "closed": world.is_closed(),
         "effects": effects(&plan(world)),
         "viewpoint": {
-            "eye": view.eye.to_array(),
-            "target": view.target.to_array(),
+            "eye": in_file(view.eye),
+            "target": in_file(view.target),
             "up": view.up.to_array(),
             "vertical_fov": view.vertical_fov,
         },
@@ -85,8 +86,8 @@ fn text(world: &World) -> String {
         world.mesh.patches.len(),
         world.mesh.elements.len(),
         world.element_size,
-        world.bounds.min,
-        world.bounds.max,
+        scene.file_from_scene(world.bounds.min),
+        scene.file_from_scene(world.bounds.max),
         if world.is_closed() { "closed" } else { "open: light escapes" },
     );
     for finding in &scene.findings {

@@ -31,6 +31,7 @@ use crate::worker::Refused;
 use crate::world::WorldError;
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, Parser, Subcommand};
+use glam::DVec3;
 use std::path::PathBuf;
 
 /// Watch light spread through a scene, and read off what accuracy costs.
@@ -131,12 +132,17 @@ pub enum CliError {
     NotFound(#[from] NotFound),
     #[error("there is nothing to draw: {0}")]
     Missing(&'static str),
-    #[error("no surface is at {},{},{}, seen from where its normal points, and {reason}", .point[0], .point[1], .point[2])]
-    InTheAir { point: [f32; 3], reason: &'static str },
+    #[error("no surface is at {}, seen from where its normal points, and {reason}; the nearest is {distance:.2e} m away", text(.point))]
+    InTheAir { point: DVec3, distance: f64, reason: &'static str },
     #[error("cannot make the folder {path}")]
     Folder { path: PathBuf, source: std::io::Error },
     #[error("cannot print")]
     Print(#[from] std::io::Error),
+}
+
+/// A point as options have it: `0,1.5,-2`.
+fn text(point: &DVec3) -> String {
+    format!("{},{},{}", point.x, point.y, point.z)
 }
 
 /// Ends the program, as any other wrong command line does, because options do not fit together.

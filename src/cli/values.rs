@@ -1,14 +1,14 @@
 //! Values of options, read so strictly that a mistake is told before any work begins.
 
 use crate::methods::Settings;
-use glam::Vec3;
+use glam::DVec3;
 use std::path::PathBuf;
 
 /// `x,y,z`
-pub fn vector(text: &str) -> Result<Vec3, String> {
-    let numbers: Result<Vec<f32>, _> = text.split(',').map(|part| part.trim().parse::<f32>()).collect();
+pub fn vector(text: &str) -> Result<DVec3, String> {
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse::<f64>()).collect();
     match numbers.as_deref() {
-        Ok(&[x, y, z]) if [x, y, z].iter().all(|number| number.is_finite()) => Ok(Vec3::new(x, y, z)),
+        Ok(&[x, y, z]) if DVec3::new(x, y, z).as_vec3().is_finite() => Ok(DVec3::new(x, y, z)),
         _ => Err("three numbers are wanted, as in 0,1.5,-2".to_owned()),
     }
 }
@@ -97,8 +97,13 @@ mod tests {
 
     #[test]
     fn values_are_read_or_refused() {
-        assert_eq!(vector("1, -2,3.5"), Ok(Vec3::new(1.0, -2.0, 3.5)));
-        assert!(vector("1,2").is_err() && vector("1,2,nan").is_err() && vector("a,b,c").is_err());
+        assert_eq!(vector("1, -2,3.5"), Ok(DVec3::new(1.0, -2.0, 3.5)));
+        assert!(
+            vector("1,2").is_err()
+                && vector("1,2,nan").is_err()
+                && vector("1,2,1e39").is_err()
+                && vector("a,b,c").is_err()
+        );
         assert_eq!(size("640x480"), Ok([640, 480]));
         assert!(size("640").is_err() && size("0x3").is_err() && size("-1x3").is_err());
         assert_eq!(percent("100"), Ok(100.0));

@@ -18,7 +18,7 @@ use glam::{DMat3, DVec3};
 pub const CASES: &[Case] = &[
     Case {
         name: "duplicate-faces",
-        about: "a floor that the file states three times, with its corners in another order",
+        about: "a floor that the file states four times, with its corners in other orders and front and back",
         measure: duplicate_faces,
         scene: || lit_cube(0.5).line(DUPLICATES).show("duplicate-faces"),
     },
@@ -62,7 +62,7 @@ pub const CASES: &[Case] = &[
 
 const SEEN: &str = "every pair of points is asked whether they see each other";
 
-const DUPLICATES: &str = "f 1 2 3 4\nf 3 4 1 2\nf 4 3 2 1";
+const DUPLICATES: &str = "usemtl room\nf 1 2 3 4\nf 3 4 1 2\nf 4 3 2 1";
 
 /// Two squares side by side and one farther off in the plane with the normal (1, 2, 3).
 fn tilted_plane() -> Stage {
@@ -122,7 +122,7 @@ fn two_chambers(wall: f64) -> Stage {
 }
 
 fn duplicate_faces(rows: &mut Rows) -> Result<(), Cancelled> {
-    let guard = "faces with the same corners in any order are left out";
+    let guard = "faces of one material with the same corners, seen from either side, are kept once";
     let (once, thrice) = (lit_cube(0.5).open("once"), lit_cube(0.5).line(DUPLICATES).open("thrice"));
     rows.check("faces", thrice.polygons.len() as f64, exactly(7.0), guard);
     let light = |scene| {

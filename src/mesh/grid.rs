@@ -5,6 +5,9 @@
 
 use glam::{DVec2, DVec3};
 
+/// A triangle whose height is less than this share of an element is cut as a strip.
+const SLIVER: f64 = 1.0 / 64.0;
+
 /// How a side is divided: `patches` along each edge, and `elements` along each edge of a patch. A triangle uses the
 /// first number of each for all its edges.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,9 +18,14 @@ pub struct Grid {
 
 impl Grid {
     /// The grid in which no edge of an element (of a triangle, all but the longest) is longer than `element_size`,
-    /// and no patch has more than `elements_per_patch` elements along an edge.
+    /// and no patch has more than `elements_per_patch` elements along an edge. A triangle that is much narrower than an
+    /// element has about as many elements as a strip of its length, although these are longer.
     pub fn fit(shape: &Shape, element_size: f64, elements_per_patch: u32) -> Self {
-        let cells = shape.edge_lengths().map(|length| (length / element_size).ceil().max(1.0) as u32);
+        let cells = shape.edge_lengths().map(|length| {
+            let cells = length / element_size;
+            let cells = if shape.is_sliver(element_size) { cells.sqrt() } else { cells };
+            cells.ceil().max(1.0) as u32
+        });
         let patches = cells.map(|count| count.div_ceil(elements_per_patch));
         Self { patches, elements: [cells[0].div_ceil(patches[0]), cells[1].div_ceil(patches[1])] }
     }
@@ -61,6 +69,14 @@ impl Shape {
                 [(b - a).length().max((c - d).length()), (d - a).length().max((c - b).length())]
             }
         }
+    }
+
+    /// Whether it is a triangle whose height over its longest edge is nothing beside an element. Cut into n² cells alike, it
+    /// would have as many elements as a wide one.
+    fn is_sliver(&self, element_size: f64) -> bool {
+        let Self::Triangle([a, b, c]) = *self else { return false };
+        let longest = (b - a).length().max((c - b).length()).max((a - c).length());
+        (b - a).cross(c - a).length() < SLIVER * element_size * longest
     }
 
     /// How many cells a division into `count` has.
@@ -274,6 +290,18 @@ mod tests {
                 assert!((blend - shape.point(at)).length() < 1e-14);
             }
         }
+    }
+
+    #[test]
+    fn a_sliver_has_as_many_elements_as_a_strip() {
+        // 40 elements long; a triangle of that height is cut into 40² and one a thousandth of an element high into 7².
+        let triangle = |height: f64| Shape::new(&[DVec3::ZERO, 2.0 * DVec3::X, DVec3::new(0.0, height, 0.0)]);
+        let cells = |height| {
+            let shape = triangle(height);
+            let grid = Grid::fit(&shape, 0.05, 1);
+            shape.cells(grid.patches)
+        };
+        assert_eq!([2.0, 5e-5, 1e-12].map(cells), [1600, 49, 49]);
     }
 
     #[test]

@@ -6,16 +6,13 @@
 //! keywords set off by tabs, and coordinates of more digits than single precision has.
 
 use super::doctor::{Finding, FindingKind};
+use super::frame::{FaceBounds, Frame};
 use glam::{DVec3, Vec3};
 use std::borrow::Cow;
 
 /// Largest coordinate that is accepted, m. The squared length of a cross product of two edges reaches 192 c⁴ for
 /// coordinates up to c, which must stay below `f32::MAX` = 3.4e38.
 pub const MAX_COORDINATE: f64 = 1e9;
-
-/// A scene whose middle is farther from the origin than this many times its extent is moved to the origin. Up to there, ray
-/// origins are moved off their surface by 32 ε · 16 = 6e-5 of the extent: less than what counts as touching.
-const FARTHEST: f64 = 16.0;
 
 /// The name of faces that stand before any `o` or `g` line.
 pub const UNNAMED: &str = "unnamed";
@@ -28,6 +25,8 @@ pub struct CheckedObj {
     pub text: String,
     /// Each face of `text`, in order.
     pub faces: Vec<CheckedFace>,
+    /// What the coordinates of `text` are measured from, in those of the file, m.
+    pub origin: DVec3,
     /// Unit vectors, one for each `vn` line; `None` for one that states no direction.
     pub normals: Vec<Option<Vec3>>,
     /// How many `f` lines the file has, usable or not.
@@ -118,14 +117,16 @@ struct Checker {
     output: CheckedObj,
     vertices: Vec<Vertex>,
     normals: Vec<Normal>,
+    /// Of each usable face.
+    bounds: Vec<FaceBounds>,
     object: String,
 }
 
 /// What faces need to know of a vertex. Even one that cannot be used has its place in the numbering.
 struct Vertex {
     line: u32,
-    /// m; `None` for one that cannot be used.
-    position: Option<[f64; 3]>,
+    /// In the coordinates of the file, m; `None` for one that cannot be used.
+    position: Option<DVec3>,
     is_used: bool,
 }
 
@@ -142,6 +143,7 @@ impl Checker {
         let output = CheckedObj {
             text: format!("o {UNNAMED}\n"),
             faces: Vec::new(),
+            origin: DVec3::ZERO,
             normals: Vec::new(),
             face_count: 0,
             libraries: Vec::new(),
@@ -149,7 +151,7 @@ impl Checker {
             first_bare_face: None,
             findings: Vec::new(),
         };
-        Self { output, vertices: Vec::new(), normals: Vec::new(), object: UNNAMED.to_owned() }
+        Self { output, vertices: Vec::new(), normals: Vec::new(), bounds: Vec::new(), object: UNNAMED.to_owned() }
     }
 
     fn vertex(&mut self, number: u32, rest: &str) {
@@ -177,6 +179,8 @@ impl Checker {
         self.output.face_count += 1;
         match self.corners(rest) {
             Ok(corners) => {
+                let positions = corners.iter().filter_map(|&corner| self.vertices[corner].position);
+                self.bounds.push(FaceBounds::of(positions));
                 let corners: String = corners.iter().map(|c| format!(" {}", c + 1)).collect();
                 self.output.text += &format!("f{corners}\n");
                 let normals = self.normals(number, rest);
@@ -291,45 +295,42 @@ impl Checker {
             self.output.findings.push(Finding::note(FindingKind::UnusedVertices, "the file", problem, "left out"));
         }
         self.output.normals = self.normals.iter().map(|normal| normal.direction.clone().ok()).collect();
-        let origin = self.origin();
-        if origin != [0.0; 3] {
-            let [x, y, z] = origin;
-            self.output.findings.push(Finding::warning(
-                FindingKind::SceneMoved,
-                "the scene",
-                "it is so far from the origin that single precision would lose its detail",
-                format!("moved by {} {} {}; all coordinates are those of the moved scene", -x, -y, -z),
-            ));
-        }
+        let frame = Frame::of(&self.bounds, |face| self.face_name(face));
+        self.output.origin = frame.origin;
+        self.output.findings.extend(frame.findings);
+        self.leave_out(&frame.is_stray);
         let mut text = String::new();
         for vertex in &self.vertices {
-            let [x, y, z] = vertex.position.unwrap_or(origin);
-            text += &format!("v {} {} {}\n", (x - origin[0]) as f32, (y - origin[1]) as f32, (z - origin[2]) as f32);
+            let DVec3 { x, y, z } = vertex.position.map_or(DVec3::ZERO, |position| position - frame.origin);
+            text += &format!("v {x} {y} {z}\n");
         }
         self.output.text.insert_str(0, &text);
         self.output
     }
 
-    /// Where the scene's origin should be, m: at 0, or at the middle of the used vertices where they are far from 0. It is
-    /// rounded to a power of two of about the scene's extent, so that a file that was moved by whole numbers gives the
-    /// very same coordinates as before.
-    fn origin(&self) -> [f64; 3] {
-        let used = self.vertices.iter().filter(|vertex| vertex.is_used).filter_map(|vertex| vertex.position);
-        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-        for position in used {
-            for axis in 0..3 {
-                low[axis] = low[axis].min(position[axis]);
-                high[axis] = high[axis].max(position[axis]);
+    /// What findings call a usable face by.
+    fn face_name(&self, face: usize) -> String {
+        let mut faces = 0;
+        let mut object = UNNAMED;
+        for line in self.output.text.lines() {
+            object = line.strip_prefix("o ").unwrap_or(object);
+            faces += usize::from(line.starts_with("f "));
+            if faces > face {
+                break;
             }
         }
-        let extent = (0..3).map(|axis| high[axis] - low[axis]).fold(0.0, f64::max);
-        let middle = [0, 1, 2].map(|axis| 0.5 * (low[axis] + high[axis]));
-        let distance = middle.iter().fold(0.0, |most: f64, coordinate| most.max(coordinate.abs()));
-        if extent == 0.0 || distance <= FARTHEST * extent {
-            return [0.0; 3];
+        format!("object '{object}', line {}", self.output.faces[face].line)
+    }
+
+    fn leave_out(&mut self, is_stray: &[bool]) {
+        if !is_stray.contains(&true) {
+            return;
         }
-        let step = extent.log2().ceil().exp2();
-        middle.map(|coordinate| (coordinate / step).round() * step)
+        let mut strays = is_stray.iter();
+        let is_kept = |line: &&str| !line.starts_with("f ") || strays.next() == Some(&false);
+        self.output.text = self.output.text.lines().filter(is_kept).flat_map(|line| [line, "\n"]).collect();
+        let mut strays = is_stray.iter();
+        self.output.faces.retain(|_| strays.next() == Some(&false));
     }
 }
 
@@ -342,7 +343,7 @@ fn from_zero(index: i64, count: usize) -> Option<usize> {
 }
 
 /// A fourth number (the weight of rational curves) and vertex colours mean nothing to polygons here.
-fn usable_position(rest: &str) -> Result<[f64; 3], (FindingKind, String)> {
+fn usable_position(rest: &str) -> Result<DVec3, (FindingKind, String)> {
     let position = parse_numbers(rest).map_err(|problem| (FindingKind::MalformedLine, problem))?;
     // What single precision has no number for counts as infinite.
     if position.iter().any(|coordinate| !(*coordinate as f32).is_finite()) {
@@ -351,7 +352,7 @@ fn usable_position(rest: &str) -> Result<[f64; 3], (FindingKind, String)> {
     if position.iter().any(|coordinate| coordinate.abs() > MAX_COORDINATE) {
         return Err((FindingKind::ValueOutOfRange, format!("a coordinate is larger than {MAX_COORDINATE:e}")));
     }
-    Ok(position)
+    Ok(DVec3::from_array(position))
 }
 
 fn parse_numbers(rest: &str) -> Result<[f64; 3], String> {

@@ -2,6 +2,7 @@
 
 mod builtin;
 mod doctor;
+mod frame;
 mod glass;
 mod light;
 mod lines;
@@ -9,13 +10,14 @@ mod material;
 mod mtl;
 mod obj;
 mod polygonize;
+mod repeats;
 mod smooth;
 
 pub use builtin::{BUILTINS, Builtin};
 pub use doctor::{Finding, FindingKind, Severity};
 pub use material::{Lobes, Material};
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -26,7 +28,9 @@ pub struct Scene {
     pub name: String,
     /// Where it was read from.
     pub source: Source,
-    /// Corner positions; every polygon's corners index into them.
+    /// What positions are measured from, in the coordinates of the file, m; not 0 where the file is far from its own origin.
+    pub origin: DVec3,
+    /// Corner positions, m from `origin`; every polygon's corners index into them.
     pub positions: Vec<Vec3>,
     /// Unit vectors: normals at corners of polygons that stand for a smooth surface.
     pub normals: Vec<Vec3>,

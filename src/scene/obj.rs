@@ -5,10 +5,11 @@ use super::glass;
 use super::lines::{self, CheckedFace, CheckedObj};
 use super::material::Material;
 use super::mtl::Library;
-use super::polygonize::{Shape, polygonize, without_repeated_corners};
+use super::polygonize::{Shape, has_area, polygonize, without_repeated_corners};
+use super::repeats::Faces;
 use super::smooth::{Smoothness, drop_unused_normals, keep_used, smoothness};
 use super::{Polygon, Scene, SceneError, Source};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use std::collections::{HashMap, HashSet};
 use std::io;
 
@@ -33,7 +34,7 @@ pub fn read(
         return Err(empty(why_no_face(text, &checked, &findings)));
     }
     let models = parse(&checked.text, &library).map_err(|error| empty(error.to_string()))?;
-    let mut assembler = Assembler::new(library, findings, std::mem::take(&mut checked.normals));
+    let mut assembler = Assembler::new(library, findings, std::mem::take(&mut checked.normals), checked.origin);
     let mut faces = checked.faces.iter();
     for model in &models {
         assembler.model(model, &mut faces);
@@ -116,7 +117,11 @@ fn parse(text: &str, library: &Library) -> Result<Vec<tobj::Model>, tobj::LoadEr
 /// Collects the scene, model by model.
 struct Assembler {
     library: Library,
+    /// Of faces whose file names no material.
+    grey: Material,
     findings: Vec<Finding>,
+    /// See [`Scene::origin`].
+    origin: DVec3,
     positions: Vec<Vec3>,
     /// As the file has them; no face that names one that is missing is left.
     normals: Vec<Vec3>,
@@ -127,15 +132,16 @@ struct Assembler {
     welded: HashMap<[u32; 3], u32>,
     material_index: HashMap<Option<usize>, u32>,
     object_index: HashMap<String, u32>,
-    /// Sorted corners and material of each face so far, with its line.
-    faces: HashMap<Vec<u32>, (u32, u32)>,
+    faces: Faces,
 }
 
 impl Assembler {
-    fn new(library: Library, findings: Vec<Finding>, normals: Vec<Option<Vec3>>) -> Self {
+    fn new(library: Library, findings: Vec<Finding>, normals: Vec<Option<Vec3>>, origin: DVec3) -> Self {
         Self {
             library,
+            grey: Material::grey("grey"),
             findings,
+            origin,
             positions: Vec::new(),
             normals: normals.into_iter().map(Option::unwrap_or_default).collect(),
             polygons: Vec::new(),
@@ -144,7 +150,7 @@ impl Assembler {
             welded: HashMap::new(),
             material_index: HashMap::new(),
             object_index: HashMap::new(),
-            faces: HashMap::new(),
+            faces: Faces::default(),
         }
     }
 
@@ -155,7 +161,8 @@ impl Assembler {
         if mesh.indices.is_empty() {
             return;
         }
-        let welded: Vec<u32> = mesh.positions.chunks_exact(3).map(|p| self.weld(Vec3::from_slice(p))).collect();
+        let stated: Vec<DVec3> = mesh.positions.chunks_exact(3).map(DVec3::from_slice).collect();
+        let welded: Vec<u32> = stated.iter().map(|position| self.weld(position.as_vec3())).collect();
         let material = self.material(mesh.material_id);
         let object = self.object(&model.name);
         // The parser leaves the arities out where all faces are triangles.
@@ -164,23 +171,27 @@ impl Assembler {
         for (&arity, checked) in mesh.face_arities.iter().chain(&all_triangles).zip(faces) {
             let (face, after) = rest.split_at(arity as usize);
             rest = after;
-            let corners: Vec<u32> = face.iter().map(|&corner| welded[corner as usize]).collect();
-            self.face(&corners, checked, material, object);
+            let corner = |&corner: &u32| (welded[corner as usize], stated[corner as usize]);
+            self.face(&face.iter().map(corner).collect::<Vec<_>>(), checked, material, object);
         }
     }
 
-    fn face(&mut self, corners: &[u32], checked: &CheckedFace, material: u32, object: u32) {
+    /// `corners` are indices of positions, each with the coordinates that the file states, in the scene's frame.
+    fn face(&mut self, corners: &[(u32, DVec3)], checked: &CheckedFace, material: u32, object: u32) {
         let line = checked.line;
-        let ring = without_repeated_corners(corners);
-        let corners: Vec<u32> = ring.iter().map(|&place| corners[place]).collect();
+        let (corners, stated): (Vec<u32>, Vec<DVec3>) = corners.iter().copied().unzip();
+        let ring = without_repeated_corners(&corners);
         let subject = format!("object '{}', line {line}", self.objects[object as usize]);
-        if let Some(finding) = self.duplicate(&corners, material, line, &subject) {
+        let corners: Vec<u32> = ring.iter().map(|&place| corners[place]).collect();
+        if let Some(finding) = self.repeated(&corners, line, material, &subject) {
             self.findings.push(finding);
             return;
         }
         let first = self.polygons.len();
+        let rounding = f64::EPSILON * stated.iter().map(|&p| (p + self.origin).abs().max_element()).fold(0.0, f64::max);
+        let outline: Vec<DVec3> = ring.iter().map(|&place| stated[place]).collect();
         let polygons = &mut self.polygons;
-        let shape = polygonize(&self.positions, &corners, &mut |piece| {
+        let shape = polygonize(&outline, rounding, &mut |piece| {
             let pick = |from: &dyn Fn(usize) -> u32| piece.iter().map(|&place| from(place)).collect::<Vec<u32>>();
             let polygon = Polygon::new(&pick(&|place| corners[place]), material, object, line);
             polygons.push(match &checked.normals {
@@ -189,26 +200,22 @@ impl Assembler {
             });
         });
         self.keep_smooth_normals(first, &subject);
-        let (kind, problem, remedy) = match shape {
-            Shape::Planar => return,
-            Shape::Warped(share) => {
-                let problem =
-                    format!("its {} corners are not in one plane (off by {share:.1e} of its size)", corners.len());
-                (FindingKind::NonPlanarFace, problem, "cut into triangles")
-            }
-            Shape::Crossed => {
-                let problem = "its outline crosses itself".to_owned();
-                self.findings.push(Finding::warning(
-                    FindingKind::CrossedFace,
-                    subject,
-                    problem,
-                    "cut as far as possible",
-                ));
-                return;
-            }
-            Shape::Degenerate => (FindingKind::DegenerateFace, "the face has no area".to_owned(), "left out"),
+        // Corners that fell together may be all that was wrong.
+        let shape = if shape == Shape::Degenerate && has_area(&stated, rounding) { Shape::Collapsed } else { shape };
+        self.findings.extend(shape_finding(shape, corners.len(), subject));
+    }
+
+    /// Why a face need not be there, if it was stated before.
+    fn repeated(&mut self, corners: &[u32], line: u32, material: u32, subject: &str) -> Option<Finding> {
+        if corners.len() < 3 {
+            return None;
+        }
+        let Self { faces, library, materials, grey, .. } = self;
+        let look = |material: u32| {
+            let place = materials[material as usize];
+            place.map_or(&*grey, |place| &library.entries[place].material)
         };
-        self.findings.push(Finding::note(kind, subject, problem, remedy));
+        faces.add(corners, line, material, subject, look)
     }
 
     /// Leaves the pieces of a face, from polygon `first` on, the normals that say more than their planes.
@@ -227,23 +234,6 @@ impl Assembler {
             let finding = Finding::warning(FindingKind::NormalIgnored, subject, problem, "the face counts as flat");
             self.findings.push(finding);
         }
-    }
-
-    /// Whether a face with the same corners, in any order, came before.
-    fn duplicate(&mut self, corners: &[u32], material: u32, line: u32, subject: &str) -> Option<Finding> {
-        let mut key = corners.to_vec();
-        key.sort_unstable();
-        let (first_line, first_material) = *self.faces.entry(key).or_insert((line, material));
-        if first_line == line {
-            return None;
-        }
-        let problem = format!("it has the same corners as the face of line {first_line}");
-        let kind = FindingKind::DuplicateFace;
-        Some(if first_material == material {
-            Finding::note(kind, subject, problem, "left out")
-        } else {
-            Finding::warning(kind, subject, format!("{problem}, but another material"), "left out")
-        })
     }
 
     /// The index of a position; corners at exactly the same place share one.
@@ -271,7 +261,18 @@ impl Assembler {
     }
 
     fn finish(self, name: &str, source: Source) -> Scene {
-        let Self { library, mut findings, mut positions, mut normals, mut polygons, materials, objects, .. } = self;
+        let Self {
+            library,
+            grey,
+            mut findings,
+            origin,
+            mut positions,
+            mut normals,
+            mut polygons,
+            materials,
+            objects,
+            ..
+        } = self;
         drop_unused_positions(&mut positions, &mut polygons);
         drop_unused_normals(&mut normals, &mut polygons);
         let mut entries: Vec<_> = library.entries.into_iter().map(Some).collect();
@@ -283,12 +284,12 @@ impl Assembler {
                     findings.append(&mut mended);
                     material
                 }
-                None => Material::grey("grey"),
+                None => grey.clone(),
             })
             .collect();
         let name = name.to_owned();
         let mut scene =
-            Scene { name, source, positions, normals, polygons, materials, objects, viewpoint: None, findings };
+            Scene { name, source, origin, positions, normals, polygons, materials, objects, viewpoint: None, findings };
         let mended = glass::mend(&mut scene);
         scene.findings.extend(mended);
         if !scene.has_emitter() {
@@ -301,6 +302,27 @@ impl Assembler {
         }
         scene
     }
+}
+
+/// What there is to say of a face's shape.
+fn shape_finding(shape: Shape, corners: usize, subject: String) -> Option<Finding> {
+    Some(match shape {
+        Shape::Planar => return None,
+        Shape::Warped(share) => {
+            let problem = format!("its {corners} corners are not in one plane (off by {share:.1e} of its size)");
+            Finding::note(FindingKind::NonPlanarFace, subject, problem, "cut into triangles")
+        }
+        Shape::Crossed => {
+            let problem = "its outline crosses itself";
+            Finding::warning(FindingKind::CrossedFace, subject, problem, "cut as far as possible")
+        }
+        Shape::Collapsed => {
+            let problem = "it is narrower than single precision can hold";
+            let remedy = "left out; its edges fall together, so that no gap is left";
+            Finding::note(FindingKind::FaceTooNarrow, subject, problem, remedy)
+        }
+        Shape::Degenerate => Finding::note(FindingKind::DegenerateFace, subject, "the face has no area", "left out"),
+    })
 }
 
 /// Faces that were left out may leave positions behind, far from everything that is seen.

@@ -44,7 +44,8 @@ impl Scene {
     pub fn shading_normal(&self, polygon: usize, point: Vec3) -> Option<Vec3> {
         let polygon = &self.polygons[polygon];
         let normals = polygon.normals.as_ref()?;
-        let corner = |place: usize| self.positions[polygon.corners[place] as usize];
+        let point = point.as_dvec3();
+        let corner = |place: usize| self.positions[polygon.corners[place] as usize].as_dvec3();
         let normal = |place: usize| self.normals[normals[place] as usize];
         let first = corner(0);
         let mut at = Barycentric::new(point - first, corner(1) - first, corner(2) - first);
@@ -53,25 +54,27 @@ impl Scene {
             (second, third) = (2, 3);
             at = Barycentric::new(point - first, corner(2) - first, corner(3) - first);
         }
-        let (second_share, third_share) = (at.second.max(0.0), at.third.max(0.0));
+        let shares = [at.second.max(0.0), at.third.max(0.0)];
+        let [second_share, third_share] = shares.map(|share| share as f32);
         let first_share = (1.0 - second_share - third_share).max(0.0);
         let sum = first_share * normal(0) + second_share * normal(second) + third_share * normal(third);
-        let sum = if sum.dot(at.front) < 0.0 { -sum } else { sum };
+        let sum = if sum.dot(at.front.as_vec3()) < 0.0 { -sum } else { sum };
         sum.try_normalize()
     }
 }
 
-/// A point of a triangle as shares of its second and third corner, in its plane in [0, 1].
+/// A point of a triangle as shares of its second and third corner, in its plane in [0, 1]. In double precision, which slivers
+/// need.
 struct Barycentric {
-    second: f32,
-    third: f32,
-    /// Along the normal of the triangle's front.
-    front: Vec3,
+    second: f64,
+    third: f64,
+    /// Unit normal of the triangle's front.
+    front: DVec3,
 }
 
 impl Barycentric {
     /// All from the triangle's first corner.
-    fn new(point: Vec3, second: Vec3, third: Vec3) -> Self {
+    fn new(point: DVec3, second: DVec3, third: DVec3) -> Self {
         let double_area = second.cross(third);
         let length = double_area.length();
         let front = double_area / length;

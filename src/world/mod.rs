@@ -4,6 +4,7 @@ mod ceiling;
 mod census;
 mod emitters;
 mod exposure;
+mod nearest;
 mod occluders;
 mod planes;
 mod shells;

@@ -7,6 +7,7 @@ mod form_factors;
 mod inspecting;
 mod photons;
 mod pictures_for_budgets;
+mod places;
 mod probing;
 mod rays;
 mod refusing;

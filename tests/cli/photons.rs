@@ -88,10 +88,10 @@ fn in_a_furnace_photons_agree_with_radiosity_within_their_own_error() {
         assert!(values.iter().zip(errors).all(is_close), "{line:?}");
     }
     let points = json(&folder, &format!("{probe} --json"));
-    let fields = ["irradiance", "normal", "photons", "point", "radius", "relative_error"];
+    let fields = ["irradiance", "normal", "on_surface", "photons", "point", "radius", "relative_error"];
     assert_eq!(keys(&points["points"][0]), fields);
     let points = json(&folder, &format!("{probe} --json --passes 2"));
-    assert_eq!(keys(&points["points"][2]), ["irradiance", "normal", "passes", "point", "standard_error"]);
+    assert_eq!(keys(&points["points"][2]), ["irradiance", "normal", "on_surface", "passes", "point", "standard_error"]);
 }
 
 #[test]

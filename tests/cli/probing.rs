@@ -55,7 +55,9 @@ fn points_are_read_from_standard_input_too() {
     assert_eq!(stdout(&output), from_file);
     let points = json(&folder, "probe furnace --element 0.25 --points points.txt --json");
     assert_eq!(points["points"].as_array().map(Vec::len), Some(5));
-    assert_eq!(keys(&points["points"][0]), ["irradiance", "normal", "point"]);
+    assert_eq!(keys(&points["points"][0]), ["irradiance", "normal", "on_surface", "point"]);
+    let on_surface: Vec<_> = (0..5).map(|i| points["points"][i]["on_surface"].as_bool()).collect();
+    assert_eq!(on_surface, [true, true, true, false, false].map(Some));
 }
 
 #[test]
@@ -88,7 +90,7 @@ fn all_ambient_light_arrives_on_an_open_plane_and_none_in_a_closed_room() {
         assert_eq!(share, [0.0, 0.0, 0.0, 0.0, 300.0]);
     }
     let points = json(&folder, &format!("{probe} dark.obj --json"));
-    assert_eq!(keys(&points["points"][0]), ["normal", "point", "rays", "share", "standard_error"]);
+    assert_eq!(keys(&points["points"][0]), ["normal", "on_surface", "point", "rays", "share", "standard_error"]);
 }
 
 #[test]
@@ -147,7 +149,10 @@ fn the_truth_of_a_furnace_is_known_with_its_error() {
     assert!(text.starts_with("x,y,z,nx,ny,nz,r,g,b,r_error,g_error,b_error,paths\n"), "{text}");
     let points = json(&folder, &format!("{probe} --json"));
     let points = points["points"].as_array().expect("points");
-    assert_eq!((points.len(), keys(&points[0])), (5, vec!["irradiance", "normal", "paths", "point", "standard_error"]));
+    assert_eq!(
+        (points.len(), keys(&points[0])),
+        (5, vec!["irradiance", "normal", "on_surface", "paths", "point", "standard_error"])
+    );
     for point in points {
         let number = |key: &str| point[key][0].as_f64().expect("a number");
         // 2 W/m², as above. Beyond 5 standard errors once in 40,000.
@@ -187,7 +192,11 @@ fn views_measure_the_light_of_a_furnace() {
     {
         let report = probe(options);
         let points = report["points"].as_array().expect("a list");
-        assert_eq!(keys(&points[0]), ["irradiance", "normal", "point", "samples", "standard_error"], "{options}");
+        assert_eq!(
+            keys(&points[0]),
+            ["irradiance", "normal", "on_surface", "point", "samples", "standard_error"],
+            "{options}"
+        );
         let mean = points.iter().map(|point| number(&point["irradiance"][0])).sum::<f64>() / points.len() as f64;
         // 2 W/m², as above. Half of it by 6,400 rays to emitters, which weigh by cosines and squared distances with a spread of
         // about 3: 4 % of 1 W/m² in the mean. The rest is read off what conserves energy.

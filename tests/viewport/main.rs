@@ -9,7 +9,7 @@ mod picking;
 mod radiance;
 mod views;
 
-use glam::{Vec2, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 use lightwell::camera::Camera;
 use lightwell::cancel::Cancel;
 use lightwell::math::rgb::Rgb;
@@ -49,6 +49,7 @@ fn plane_scene(corners: &[u32], scale: f32, offset: Vec3) -> Scene {
     Scene {
         name: "plane".to_owned(),
         source: Source::Builtin("plane"),
+        origin: DVec3::ZERO,
         positions: vec![place(-1.0, -1.0, 0.0), place(1.0, -1.0, 0.0), place(1.0, 1.0, 0.0), place(-1.0, 1.0, 0.0)],
         normals: Vec::new(),
         polygons: vec![Polygon::new(corners, 0, 0, 0)],

@@ -10,6 +10,7 @@ mod probe;
 #[path = "../common/shapes.rs"]
 mod shapes;
 mod sides;
+mod slivers;
 mod viewpoints;
 
 use glam::{Vec3, Vec3A};

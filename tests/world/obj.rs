@@ -35,6 +35,11 @@ impl Obj {
         Self::scaled(1.0)
     }
 
+    /// Objects, materials, vertices and faces as they stand in a file.
+    pub fn from_text(text: String) -> Self {
+        Self { text, scale: 1.0 }
+    }
+
     /// A scene of which every length is multiplied.
     pub fn scaled(scale: f32) -> Self {
         Self { text: "mtllib scene.mtl\n".to_owned(), scale }

@@ -1,8 +1,9 @@
 //! Irradiance read off a solution.
 
-use crate::build_with;
 use crate::obj::Obj;
+use crate::{build_with, builtin};
 use glam::{Vec3, Vec3A};
+use lightwell::cancel::Cancel;
 use lightwell::math::rgb::Rgb;
 use lightwell::methods::radiosity::Progressive;
 use lightwell::methods::{Method, Settings};
@@ -61,5 +62,27 @@ fn there_is_no_irradiance_where_there_is_no_lit_surface() {
         (Vec3A::splat(5.0), Vec3A::Y),
     ] {
         assert_eq!(probe.irradiance(point, normal), None, "at {point} facing {normal}");
+    }
+}
+
+#[test]
+fn a_point_a_little_under_a_surface_has_its_irradiance() {
+    let world = Arc::new(build_with(builtin("cornell-box"), 0.1));
+    let mut solver = Progressive::new(world.clone(), Settings::default());
+    for _ in 0..8 {
+        solver.step(&Cancel::default());
+    }
+    let solution = solver.solution();
+    let probe = SurfaceProbe::new(&world, &solution);
+    let at = |height: f32| probe.irradiance(Vec3A::new(0.278, height, 0.1), Vec3A::Y).expect("the floor");
+    let on_floor = at(0.0);
+    assert!(on_floor.min_element() > 0.0);
+    // Six digits of any exporter, and rounding, leave a point on either side.
+    for height in [-1e-4, -1e-5, -1e-6, 1e-6, 1e-5, 1e-4] {
+        assert!(
+            (at(height) - on_floor).abs().max_element() < 1e-4 * on_floor.max_element(),
+            "{height}: {}",
+            at(height)
+        );
     }
 }

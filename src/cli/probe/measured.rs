@@ -5,6 +5,7 @@ use super::super::judge::Verdict;
 use crate::accuracy::ProbePoint;
 use crate::cli::budget::Account;
 use crate::math::rgb::Rgb;
+use crate::world::World;
 use serde_json::{Value, json};
 use std::io::Write;
 
@@ -33,8 +34,9 @@ pub enum Quality {
     Share { standard_error: f64, rays: u64 },
 }
 
-/// With how far off they are, where that was measured, and with what a budget has led to, if there was one.
+/// In the coordinates of the file; with how far off they are, where that was measured, and with what a budget has led to, if there was one.
 pub fn print(
+    world: &World,
     measured: &[Measured],
     verdict: Option<&Verdict>,
     account: Option<&Account>,
@@ -42,7 +44,7 @@ pub fn print(
 ) -> Result<(), CliError> {
     let mut out = std::io::BufWriter::new(std::io::stdout().lock());
     if as_json {
-        let points: Vec<Value> = measured.iter().map(Measured::json).collect();
+        let points: Vec<Value> = measured.iter().map(|measured| measured.json(world)).collect();
         let mut report = json!({ "points": points });
         if let Some(verdict) = verdict {
             report["accuracy"] = verdict.json();
@@ -55,8 +57,9 @@ pub fn print(
         let columns = measured.first().map_or("", |first| first.quality.columns());
         writeln!(out, "x,y,z,nx,ny,nz,r,g,b{columns}")?;
         for Measured { at, value, quality } in measured {
-            let numbers = [at.point.into(), at.normal.into(), *value].map(|v| format!("{},{},{}", v.x, v.y, v.z));
-            writeln!(out, "{}{}", numbers.join(","), quality.values())?;
+            let point = world.scene.file_from_scene(at.point.into());
+            let numbers = [at.normal.into(), *value].map(|v| format!("{},{},{}", v.x, v.y, v.z));
+            writeln!(out, "{},{},{},{}{}", point.x, point.y, point.z, numbers.join(","), quality.values())?;
         }
         if let Some(verdict) = verdict {
             eprint!("{}", verdict.text());
@@ -70,9 +73,13 @@ pub fn print(
 }
 
 impl Measured {
-    fn json(&self) -> Value {
+    fn json(&self, world: &World) -> Value {
         let ProbePoint { point, normal } = self.at;
-        let mut object = json!({ "point": point.to_array(), "normal": normal.to_array() });
+        let mut object = json!({
+            "point": world.scene.file_from_scene(point.into()).to_array(),
+            "normal": normal.to_array(),
+            "on_surface": world.meet_at(point, normal).is_some(),
+        });
         let what = if let Quality::Share { .. } = self.quality { "share" } else { "irradiance" };
         object[what] = json!(self.value.to_array());
         match self.quality {

@@ -40,10 +40,10 @@ pub fn by_radiosity(options: &Options, world: Arc<World>, points: &[ProbePoint])
 /// Photons are on surfaces only, so points must be, too.
 pub fn by_photons(options: &Options, world: Arc<World>, points: &[ProbePoint]) -> Result<Vec<Measured>, CliError> {
     let settings = Settings { photons: options.photons.settings(), ..options.run.settings() };
-    let mut tracing = Tracing::new(world, settings, options.run.time());
+    let mut tracing = Tracing::new(world.clone(), settings, options.run.time());
     let photons = tracing.photons()?.method();
     let find = |at: &ProbePoint| photons.surface(at.point, at.normal);
-    let surfaces = surfaces(points, find, "photons land nowhere else")?;
+    let surfaces = surfaces(&world, points, find, "photons land nowhere else")?;
     if settings.photons.is_progressive {
         let mut means = ProgressivePoints::new(surfaces);
         tracing.trace(|photons| means.add(&photons.method().maps(), Which::All))?;
@@ -96,9 +96,9 @@ pub fn read(meters: &Sensors, points: &[ProbePoint]) -> Vec<Measured> {
 /// The share of ambient light is that of a surface, so points must be on one. No emitter is needed.
 pub fn by_occlusion(options: &Options, world: Arc<World>, points: &[ProbePoint]) -> Result<Vec<Measured>, CliError> {
     let settings = Settings { occlusion: options.occlusion.settings(OCCLUSION_RAYS), ..options.run.settings() };
-    let transport = Arc::new(Transport::new(world, settings.effects));
+    let transport = Arc::new(Transport::new(world.clone(), settings.effects));
     let find = |at: &ProbePoint| transport.surface_at(at.point, at.normal);
-    let surfaces = surfaces(points, find, "ambient light is asked of surfaces alone")?;
+    let surfaces = surfaces(&world, points, find, "ambient light is asked of surfaces alone")?;
     let measure = |(&at, shares): (&ProbePoint, Moments)| Measured {
         at,
         value: Rgb::splat(shares.mean() as f32),
@@ -119,13 +119,16 @@ pub fn by_view(
     let settings = options.settings_of_view();
     let mut tracing = Tracing::new(world.clone(), settings, options.run.time());
     let start = Instant::now();
-    let radiosity =
-        if view.needs_radiosity() { Some(Arc::new(options.run.solve_in(world, settings)?.solution)) } else { None };
+    let radiosity = if view.needs_radiosity() {
+        Some(Arc::new(options.run.solve_in(world.clone(), settings)?.solution))
+    } else {
+        None
+    };
     if view.needs_photons() {
         tracing.first_pass()?;
     }
     let mut meters = tracing.meters(view, radiosity, |transport| {
-        surfaces(points, |at| transport.surface_at(at.point, at.normal), "a view shows surfaces alone")
+        surfaces(&world, points, |at| transport.surface_at(at.point, at.normal), "a view shows surfaces alone")
     })?;
     let time = options.run.time();
     let wanted = options.samples.or(time.is_none().then_some(SAMPLES)).unwrap_or(u32::MAX);
@@ -144,11 +147,17 @@ pub fn by_view(
 
 /// The surface at each point; `reason` says why there must be one.
 fn surfaces(
+    world: &World,
     points: &[ProbePoint],
     find: impl Fn(&ProbePoint) -> Option<Surface>,
     reason: &'static str,
 ) -> Result<Vec<Surface>, CliError> {
-    let surface = |at: &ProbePoint| find(at).ok_or(CliError::InTheAir { point: at.point.to_array(), reason });
+    let in_the_air = |at: &ProbePoint| CliError::InTheAir {
+        point: world.scene.file_from_scene(at.point.into()),
+        distance: world.distance_to_surface(at.point),
+        reason,
+    };
+    let surface = |at: &ProbePoint| find(at).ok_or_else(|| in_the_air(at));
     points.iter().map(surface).collect()
 }
 

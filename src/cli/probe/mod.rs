@@ -38,7 +38,7 @@ pub struct Options {
     photons: PhotonOptions,
     #[command(flatten)]
     occlusion: OcclusionOptions,
-    /// Lines of `x y z nx ny nz`; `-` for standard input
+    /// Lines of `x y z nx ny nz`, in the coordinates of the scene's file; `-` for standard input
     #[arg(long, value_name = "FILE|-", required_unless_present_any = ["spread", "accuracy"])]
     points: Option<PathBuf>,
     /// Instead, N points spread by area over all surfaces that light reaches: always the same of a scene
@@ -129,27 +129,31 @@ pub fn run(options: &Options) -> Result<(), CliError> {
     let world = options.run.open()?;
     let mut judge = options.accuracy.then(|| Judge::new(world.clone()));
     let points = match (&options.points, &judge) {
-        (Some(path), _) => points::read(path)?,
+        (Some(path), _) => points::read(path, &world.scene)?,
         (None, Some(judge)) => judge.points().to_vec(),
         (None, None) => accuracy::spread(&world, options.spread.unwrap_or_default() as usize),
     };
     if let Some(budget) = budget {
-        let (measured, account) = budget::measure(&budget, options, world, &points)?;
-        return measured::print(&measured, None, Some(&account), options.json);
+        points::tell_missing(&world, &points);
+        let (measured, account) = budget::measure(&budget, options, world.clone(), &points)?;
+        return measured::print(&world, &measured, None, Some(&account), options.json);
+    }
+    if options.method().is_in_the_air() {
+        points::tell_missing(&world, &points);
     }
     if let Some(missing) = options.method().missing_light(&world) {
         eprintln!("{missing}");
     }
     let measured = match options.method() {
-        Method::Light(LightMethod::Radiosity) => methods::by_radiosity(options, world, &points)?,
-        Method::Light(LightMethod::PhotonMap) => methods::by_photons(options, world, &points)?,
-        Method::View(view) => methods::by_view(options, view, world, &points)?,
-        Method::Reference => methods::by_paths(options, world, &points)?,
-        Method::AmbientOcclusion => methods::by_occlusion(options, world, &points)?,
+        Method::Light(LightMethod::Radiosity) => methods::by_radiosity(options, world.clone(), &points)?,
+        Method::Light(LightMethod::PhotonMap) => methods::by_photons(options, world.clone(), &points)?,
+        Method::View(view) => methods::by_view(options, view, world.clone(), &points)?,
+        Method::Reference => methods::by_paths(options, world.clone(), &points)?,
+        Method::AmbientOcclusion => methods::by_occlusion(options, world.clone(), &points)?,
     };
     let found = || Found { irradiance: measured.iter().map(|measured| measured.value).collect(), variance: None };
     let verdict = judge.as_mut().map(|judge| judge.verdict(&found()));
-    measured::print(&measured, verdict.as_ref(), None, options.json)
+    measured::print(&world, &measured, verdict.as_ref(), None, options.json)
 }
 
 impl Options {
@@ -229,6 +233,11 @@ impl Method {
                 self.name()
             )
         })
+    }
+
+    /// Whether it measures where no surface is, too.
+    fn is_in_the_air(self) -> bool {
+        matches!(self, Self::Light(LightMethod::Radiosity) | Self::Reference)
     }
 
     /// The view whose effects it simulates.

@@ -111,6 +111,7 @@ mod tests {
         let scene = Scene {
             name: "squares".to_owned(),
             source: Source::Builtin("squares"),
+            origin: DVec3::ZERO,
             positions,
             normals: Vec::new(),
             polygons: vec![Polygon::new(&[0, 1, 2, 3], 0, 0, 0), Polygon::new(&[4, 5, 6, 7], 0, 0, 0)],
