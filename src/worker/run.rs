@@ -2,6 +2,7 @@
 
 use super::workshop::{OcclusionMethod, PhotonMethod, PhotonProgress};
 use crate::cancel::Cancel;
+use crate::clock::{Clock, Stopwatch};
 use crate::effects::Effect;
 use crate::mesh::Patch;
 use crate::methods::radiosity::{self, FullMatrix};
@@ -10,7 +11,7 @@ use crate::methods::{Method, PhotonSettings, Settings, Step};
 use crate::solution::{Photon, PhotonSolution, Progress, Solution, VertexShares};
 use crate::world::World;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// 2 GiB
 const CAREFUL_GUESS: u64 = 2 << 30;
@@ -23,8 +24,8 @@ const HIGHEST_REFLECTANCE: f64 = 0.99;
 /// A method at work, and the time that its steps took.
 pub struct Run {
     method: Box<dyn Method>,
-    elapsed: Duration,
-    /// The part of it that went into what can be kept for another start.
+    watch: Stopwatch,
+    /// The part of its time that went into what can be kept for another start.
     preparation: Duration,
 }
 
@@ -39,16 +40,20 @@ impl Run {
 
     /// A run of this method, before its first step.
     pub fn of(method: Box<dyn Method>) -> Self {
-        Self { method, elapsed: Duration::ZERO, preparation: Duration::ZERO }
+        Self { method, watch: Stopwatch::default(), preparation: Duration::ZERO }
+    }
+
+    /// The same before its first step, timed by this clock.
+    #[must_use]
+    pub fn with_clock(self, clock: Clock) -> Self {
+        Self { watch: Stopwatch::new(clock), ..self }
     }
 
     /// One step on the clock.
     pub fn step(&mut self, cancel: &Cancel) -> Step {
-        let start = Instant::now();
-        let step = self.method.step(cancel);
-        self.elapsed += start.elapsed();
+        let step = self.watch.time(|| self.method.step(cancel));
         if step == Step::Prepared {
-            self.preparation = self.elapsed;
+            self.preparation = self.watch.elapsed();
         }
         step
     }
@@ -57,7 +62,7 @@ impl Run {
     pub fn restart(&mut self, settings: &Settings) -> bool {
         let is_kept = self.method.restart(settings);
         if is_kept {
-            self.elapsed = self.preparation;
+            self.watch.turn_back(self.preparation);
         }
         is_kept
     }
@@ -68,7 +73,7 @@ impl Run {
     }
 
     pub fn elapsed(&self) -> Duration {
-        self.elapsed
+        self.watch.elapsed()
     }
 
     /// How far the method has come.
@@ -78,28 +83,31 @@ impl Run {
 
     /// What the method knows, with the time that it took.
     pub fn solution(&self) -> Solution {
-        Solution { elapsed: self.elapsed, ..self.method.solution() }
+        Solution { elapsed: self.watch.elapsed(), ..self.method.solution() }
     }
 }
 
 /// Photons at work, and the time that their steps took.
 pub struct PhotonRun<P> {
     method: P,
-    elapsed: Duration,
+    watch: Stopwatch,
 }
 
 impl<P: PhotonMethod> PhotonRun<P> {
     /// A run of this method, before its first step.
     pub fn of(method: P) -> Self {
-        Self { method, elapsed: Duration::ZERO }
+        Self { method, watch: Stopwatch::default() }
+    }
+
+    /// The same before its first step, timed by this clock.
+    #[must_use]
+    pub fn with_clock(self, clock: Clock) -> Self {
+        Self { watch: Stopwatch::new(clock), ..self }
     }
 
     /// One step on the clock.
     pub fn step(&mut self, cancel: &Cancel) -> Step {
-        let start = Instant::now();
-        let step = self.method.step(cancel);
-        self.elapsed += start.elapsed();
-        step
+        self.watch.time(|| self.method.step(cancel))
     }
 
     /// Takes new settings over; false if they need a new run.
@@ -112,7 +120,7 @@ impl<P: PhotonMethod> PhotonRun<P> {
     }
 
     pub fn elapsed(&self) -> Duration {
-        self.elapsed
+        self.watch.elapsed()
     }
 
     pub fn method(&mut self) -> &mut P {
@@ -121,28 +129,31 @@ impl<P: PhotonMethod> PhotonRun<P> {
 
     /// What the photons brought, with the time that it took.
     pub fn solution(&mut self) -> PhotonSolution {
-        PhotonSolution { elapsed: self.elapsed, ..self.method.solution() }
+        PhotonSolution { elapsed: self.watch.elapsed(), ..self.method.solution() }
     }
 }
 
 /// Ambient occlusion on the mesh at work, and the time that its steps took.
 pub struct OcclusionRun {
     method: Box<dyn OcclusionMethod>,
-    elapsed: Duration,
+    watch: Stopwatch,
 }
 
 impl OcclusionRun {
     /// A run of this method, before its first step.
     pub fn of(method: Box<dyn OcclusionMethod>) -> Self {
-        Self { method, elapsed: Duration::ZERO }
+        Self { method, watch: Stopwatch::default() }
+    }
+
+    /// The same before its first step, timed by this clock.
+    #[must_use]
+    pub fn with_clock(self, clock: Clock) -> Self {
+        Self { watch: Stopwatch::new(clock), ..self }
     }
 
     /// One step on the clock.
     pub fn step(&mut self, cancel: &Cancel) -> Step {
-        let start = Instant::now();
-        let step = self.method.step(cancel);
-        self.elapsed += start.elapsed();
-        step
+        self.watch.time(|| self.method.step(cancel))
     }
 
     /// Takes new settings over; false if they need a new run.
@@ -152,7 +163,7 @@ impl OcclusionRun {
 
     /// What is known, with the time that it took.
     pub fn solution(&self) -> VertexShares {
-        VertexShares { elapsed: self.elapsed, ..self.method.solution() }
+        VertexShares { elapsed: self.watch.elapsed(), ..self.method.solution() }
     }
 }
 
