@@ -25,7 +25,7 @@ pub use checks::{CheckReport, Checks};
 pub use command::{Command, LightKind, Place, Shown, Sight, Spot, Subject};
 pub use history::{Curve, CurvePoint};
 pub use methods::{Methods, TracedPhotons};
-pub use run::{PhotonRun, Refused, Run};
+pub use run::{PhotonRun, Refused, Run, check_picture};
 pub use track::{Track, TrackPoint};
 pub use workshop::{CameraShot, ImageMethod, Lights, OcclusionMethod, PhotonMethod, PhotonProgress, Workshop};
 

@@ -5,6 +5,7 @@ use crate::cancel::Cancel;
 use crate::clock::{Clock, Stopwatch};
 use crate::effects::Effect;
 use crate::mesh::Patch;
+use crate::methods::photon_map::MAX_BOUNCES;
 use crate::methods::radiosity::{self, FullMatrix};
 use crate::methods::transport::Transport;
 use crate::methods::{Method, PhotonSettings, Settings, Step};
@@ -18,8 +19,9 @@ const CAREFUL_GUESS: u64 = 2 << 30;
 
 /// A photon where it landed is handed out and being added to at the same time, and is in a tree.
 const BYTES_PER_LANDING: u64 = 2 * size_of::<Photon>() as u64 + 40;
-/// Roulette ends photons even in a world that reflects all.
-const HIGHEST_REFLECTANCE: f64 = 0.99;
+/// Film and picture, byte by byte: sums over samples 20, means of them 16, in a texture and on the way from it 32, and then in
+/// linear radiance 16, as sRGB 4 and encoded 16.
+const BYTES_PER_PIXEL: u64 = 104;
 
 /// A method at work, and the time that its steps took.
 pub struct Run {
@@ -180,6 +182,11 @@ pub enum Refused {
          are free; fewer photons need less"
     )]
     Photons { photons: u64, landings: u64, needed_mib: u64, available_mib: u64 },
+    #[error(
+        "a picture of {width} × {height} pixels needs {needed_mib} MiB, and {available_mib} MiB are free; a smaller size \
+         needs less"
+    )]
+    Picture { width: u32, height: u32, needed_mib: u64, available_mib: u64 },
 }
 
 /// The method that the settings ask for.
@@ -220,13 +227,40 @@ pub fn check_photons(transport: &Transport, settings: &PhotonSettings) -> Result
     Ok(())
 }
 
-/// How often a photon lands on diffuse surfaces until one absorbs it, where it meets all of them alike: Σ ρⁿ.
+/// Whether there is room for a picture of this width and height in pixels, from its film to its file.
+///
+/// # Errors
+/// If there is not.
+pub fn check_picture(size: [u32; 2]) -> Result<(), Refused> {
+    check_picture_in(size, available_memory())
+}
+
+/// The same where so many bytes are free.
+fn check_picture_in([width, height]: [u32; 2], available: u64) -> Result<(), Refused> {
+    let needed = (u64::from(width) * u64::from(height)).saturating_mul(BYTES_PER_PIXEL);
+    if needed > available {
+        return Err(Refused::Picture { width, height, needed_mib: needed >> 20, available_mib: available >> 20 });
+    }
+    Ok(())
+}
+
+/// How often a photon lands on diffuse surfaces until one absorbs it, where it meets all of them alike: Σ ρⁿ up to the
+/// largest number of bounces.
 fn landings_per_photon(world: &World) -> f64 {
     let materials = &world.scene.materials;
     let reflectance = |patch: &Patch| f64::from(materials[patch.material as usize].lobes().diffuse.max_element());
     let area = world.mesh.area();
     let reflected: f64 = world.mesh.patches.iter().map(|patch| patch.area * reflectance(patch)).sum();
-    if area > 0.0 { 1.0 / (1.0 - (reflected / area).min(HIGHEST_REFLECTANCE)) } else { 1.0 }
+    if area > 0.0 { landings((reflected / area).min(1.0)) } else { 1.0 }
+}
+
+/// Σ ρⁿ over all bounces.
+fn landings(reflectance: f64) -> f64 {
+    if reflectance < 1.0 {
+        (1.0 - reflectance.powi(MAX_BOUNCES as i32)) / (1.0 - reflectance)
+    } else {
+        MAX_BOUNCES as f64
+    }
 }
 
 /// Bytes that can be had without pushing anything out of memory, or a careful guess where the system does not say.
@@ -235,4 +269,32 @@ fn available_memory() -> u64 {
         system.refresh_memory();
         system.available_memory()
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Nothing is allocated for any of these.
+    #[test]
+    fn a_picture_that_does_not_fit_is_refused_by_what_it_needs() {
+        assert!(check_picture_in([1024, 1024], 104 << 20).is_ok());
+        let refused = check_picture_in([1024, 1024], (104 << 20) - 1).expect_err("a byte is missing").to_string();
+        assert_eq!(
+            refused,
+            "a picture of 1024 × 1024 pixels needs 104 MiB, and 103 MiB are free; a smaller size needs less"
+        );
+        assert!(check_picture_in([u32::MAX; 2], u64::MAX - 1).is_err());
+        // 2^64 pixels are more than any machine has room for.
+        assert!(matches!(check_picture([u32::MAX; 2]), Err(Refused::Picture { .. })));
+    }
+
+    #[test]
+    fn landings_are_a_geometric_series_that_ends_with_the_bounces() {
+        assert_eq!([0.0, 0.5].map(landings), [1.0, 2.0]);
+        assert!((landings(0.999) / 1000.0 - 1.0).abs() < 1e-6);
+        // Σ ρⁿ = (1 - ρᴺ) / (1 - ρ), close to N as ρ comes close to 1.
+        assert!((landings(1.0 - 1e-9) / MAX_BOUNCES as f64 - 1.0).abs() < 1e-4);
+        assert_eq!(landings(1.0), MAX_BOUNCES as f64);
+    }
 }
