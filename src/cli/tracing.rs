@@ -197,6 +197,7 @@ pub fn photon_report(world: &World, settings: &Settings, photons: &PhotonSolutio
         "batches": photons.batches,
         "seconds": photons.elapsed.as_secs_f64(),
         "complete": photons.is_complete,
+        "warnings": Vec::from_iter(photons.warning()),
         "max_radius": photons.max_radius,
         "nearest": settings.photons.nearest,
         "kernel": settings.photons.kernel,
