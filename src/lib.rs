@@ -11,6 +11,7 @@ pub mod camera;
 pub mod cancel;
 pub mod choice;
 pub mod cli;
+pub mod clock;
 pub mod effects;
 pub mod errors;
 pub mod hard_cases;

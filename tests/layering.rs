@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 
 /// The top modules of each layer; `lib` and `main` are the two crate roots.
 const LAYERS: [&[&str]; 8] = [
-    &["math", "cancel", "choice", "errors"],
+    &["math", "cancel", "choice", "clock", "errors"],
     &["scene", "mesh", "tracer", "world"],
     &["camera", "effects", "solution"],
     &["methods"],
@@ -50,7 +50,6 @@ const CRATES: &[(&str, &[&str])] = &[
     ("rayon", &["mesh", "tracer", "world", "methods", "accuracy", "worker", "study"]),
     ("thread_priority", &["worker"]),
     ("sysinfo", &["worker"]),
-    ("dirs", &["accuracy"]),
     ("dirs", &["accuracy"]),
     ("regex", &["solution"]),
     // The picture.

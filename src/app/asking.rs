@@ -166,7 +166,7 @@ mod tests {
                 State::Doing(_) => std::thread::sleep(Duration::from_millis(5)),
                 other => panic!("{other:?}"),
             }
-            assert!(start.elapsed() < Duration::from_secs(60));
+            assert!(start.elapsed() < Duration::from_secs(300));
         };
         let settings = recipe.applied_to(&Settings::default());
         let kept = |settings, rms| asking.claim(&measured(settings, rms), View::Smooth).expect("a claim").kept;

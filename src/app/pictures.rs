@@ -4,6 +4,7 @@ use super::model::extension;
 use crate::cli::picture::{self, Format};
 use crate::errors::with_causes;
 use crate::viewport::{Frame, Gpu, Light, render_picture};
+use crate::worker::check_picture;
 use crate::world::World;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -63,6 +64,7 @@ impl Pictures {
 }
 
 fn save(gpu: &Gpu, job: &Job) -> Result<PathBuf, String> {
+    check_picture(job.frame.size).map_err(|refused| with_causes(&refused))?;
     let picture =
         render_picture(gpu, &job.world, &job.light, &job.frame, job.samples).map_err(|error| with_causes(&error))?;
     let path = match &job.destination {

@@ -1,11 +1,12 @@
 //! What every command that writes pictures takes.
 
-use super::values;
+use super::{CliError, values};
 use crate::camera::Camera;
 use crate::choice::{self, Choice};
 use crate::scene::Viewpoint;
 use crate::solution::Solution;
-use crate::viewport::{AdapterChoice, Exposure, ToneCurve};
+use crate::viewport::{AdapterChoice, Exposure, Gpu, ToneCurve, check_size};
+use crate::worker::check_picture;
 use crate::world::World;
 use clap::Args;
 use glam::DVec3;
@@ -37,7 +38,7 @@ pub struct CameraOptions {
     pub tone: ToneCurve,
     /// The graphics adapter: `system` for the best one, `software`, or a part of its name
     #[arg(long, value_name = "software|NAME", default_value = "system")]
-    pub adapter: AdapterChoice,
+    adapter: AdapterChoice,
 }
 
 impl CameraOptions {
@@ -52,6 +53,14 @@ impl CameraOptions {
             vertical_fov: self.fov.unwrap_or(chosen.vertical_fov),
         };
         Camera::new(&viewpoint, &world.bounds)
+    }
+
+    /// What pictures are drawn with. Whether there is such a thing, and room for them, is told before the time is spent.
+    pub fn gpu(&self) -> Result<Gpu, CliError> {
+        check_picture(self.size)?;
+        let gpu = Gpu::new(&self.adapter)?;
+        check_size(&gpu, self.size)?;
+        Ok(gpu)
     }
 
     /// In stops.

@@ -148,18 +148,42 @@ impl RunOptions {
     /// Runs radiosity in the opened scene until it should stop.
     pub fn solve_in(&self, world: Arc<World>, settings: Settings) -> Result<Solved, CliError> {
         let mut run = Run::start(world.clone(), &settings)?;
-        let time = self.time().unwrap_or(Duration::MAX);
-        let mut steps_left = self.steps.unwrap_or(u64::MAX);
-        while steps_left > 0 && run.elapsed() < time {
-            match run.step(&Cancel::default()) {
-                Step::Prepared => {}
-                Step::Advanced => steps_left -= 1,
-                Step::Converged | Step::Cancelled => break,
-            }
-        }
+        run_until(&mut run, self.steps.unwrap_or(u64::MAX), self.time().unwrap_or(Duration::MAX));
         let mut solution = run.solution();
         // However it ended, this says whether it would have ended by itself.
         solution.converged = solution.unshot_share <= Settings::default().unshot_limit.max(settings.unshot_limit);
         Ok(Solved { world, settings, solution })
+    }
+}
+
+/// Takes steps until there are so many, until they took so long or until the run has converged.
+fn run_until(run: &mut Run, steps: u64, time: Duration) {
+    let mut steps_left = steps;
+    while steps_left > 0 && run.elapsed() < time {
+        match run.step(&Cancel::default()) {
+            Step::Prepared => {}
+            Step::Advanced => steps_left -= 1,
+            Step::Converged | Step::Cancelled => break,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::clock::ManualTime;
+
+    #[test]
+    fn a_run_ends_with_its_steps_or_its_time() {
+        let scene = Scene::open("furnace").expect("a built-in scene");
+        let settings = Settings { unshot_limit: 0.0, ..Settings::default() };
+        let world = Arc::new(World::build(scene, &settings.mesh, &Cancel::default()).expect("a world"));
+        for (steps, seconds, done) in [(u64::MAX, 5, 5), (3, 5, 3), (u64::MAX, 0, 0), (0, 5, 0)] {
+            // Every step takes a second.
+            let clock = ManualTime::ticking(Duration::from_secs(1));
+            let mut run = Run::start(world.clone(), &settings).expect("enough memory").with_clock(clock);
+            run_until(&mut run, steps, Duration::from_secs(seconds));
+            assert_eq!(run.solution().steps, done);
+        }
     }
 }

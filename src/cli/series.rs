@@ -10,7 +10,7 @@ use crate::choice::Choice;
 use crate::mesh::MeshSettings;
 use crate::methods::{ImageSettings, Settings};
 use crate::solution::CameraView;
-use crate::viewport::{Frame, Gpu, Light, PhotonLook, View, render_picture};
+use crate::viewport::{Frame, Light, PhotonLook, View, render_picture};
 use crate::worker::CameraShot;
 use serde_json::{Value, json};
 use std::io::Write;
@@ -54,7 +54,7 @@ pub struct Options {
 
 /// All pictures have the same exposure.
 pub fn run(options: &Options) -> Result<(), CliError> {
-    let gpu = Gpu::new(&options.camera.adapter)?;
+    let gpu = options.camera.gpu()?;
     let settings = options.settings();
     let world = options.scene.open(settings.mesh.elements_per_patch_edge)?;
     let exposure_ev = options.camera.exposure_ev(&world, None);

@@ -179,6 +179,9 @@ fn photon_text(world: &World, photons: &PhotonSolution) -> String {
     text += &row("escaped", total(energy.escaped), emitted);
     text += &row("truncated", total(energy.truncated), emitted);
     text += &defect_row(total(energy.defect()));
+    if let Some(warning) = photons.warning() {
+        text += &format!("  warning: {warning}\n");
+    }
     text += &format!("  photons of the last pass: {} emitted, {} landings stored", counters.emitted, counters.stored);
     if counters.caustic_emitted > 0 {
         let (emitted, stored) = (counters.caustic_emitted, counters.caustic_stored);

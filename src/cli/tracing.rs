@@ -2,6 +2,7 @@
 
 use super::{CliError, effect_options};
 use crate::cancel::Cancel;
+use crate::clock::{Clock, Stopwatch};
 use crate::math::rgb::total;
 use crate::methods::ambient_occlusion::VertexOcclusion;
 use crate::methods::image::{Meters, Sources};
@@ -12,7 +13,7 @@ use crate::worker::{CameraShot, Lights, Methods, PhotonRun, Subject, TracedPhoto
 use crate::world::World;
 use serde_json::{Map, Value, json};
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// A world to be lit by photons and looked at from cameras.
 pub struct Tracing {
@@ -20,6 +21,7 @@ pub struct Tracing {
     pub settings: Settings,
     /// Solver time after which no more is begun.
     time: Duration,
+    clock: Clock,
     methods: Methods,
     photons: Option<PhotonRun<TracedPhotons>>,
 }
@@ -27,14 +29,17 @@ pub struct Tracing {
 impl Tracing {
     pub fn new(world: Arc<World>, settings: Settings, time: Option<Duration>) -> Self {
         let time = time.unwrap_or(Duration::MAX);
-        Self { world, settings, time, methods: Methods::default(), photons: None }
+        Self { world, settings, time, clock: Clock::default(), methods: Methods::default(), photons: None }
     }
 
     /// The photons, before their first step if nothing has asked for them.
     pub fn photons(&mut self) -> Result<&mut PhotonRun<TracedPhotons>, CliError> {
         let run = match self.photons.take() {
             Some(run) => run,
-            None => PhotonRun::of(self.methods.photons(&self.world, &self.settings)?),
+            None => {
+                let method = self.methods.photons(&self.world, &self.settings)?;
+                PhotonRun::of(method).with_clock(self.clock.clone())
+            }
         };
         Ok(self.photons.insert(run))
     }
@@ -73,10 +78,10 @@ impl Tracing {
     pub fn occlusion(&self) -> VertexShares {
         let transport = Arc::new(Transport::new(self.world.clone(), self.settings.effects));
         let mut method = VertexOcclusion::new(transport, &self.settings);
-        let start = Instant::now();
-        let has_time = |rounds: u32| rounds == 0 || start.elapsed() < self.time;
+        let start = self.clock.now();
+        let has_time = |rounds: u32| rounds == 0 || self.clock.since(start) < self.time;
         while has_time(method.rounds()) && method.step(&Cancel::default()) == Step::Advanced {}
-        VertexShares { elapsed: start.elapsed(), ..method.solution() }
+        VertexShares { elapsed: self.clock.since(start), ..method.solution() }
     }
 
     /// Light meters at surfaces, which read what a view shows of the light that there is.
@@ -101,7 +106,7 @@ impl Tracing {
         solution: Option<Arc<Solution>>,
         samples: Option<u32>,
     ) -> Result<(CameraImage, Option<PhotonSolution>), CliError> {
-        let mut exposing = Exposing { image: None, elapsed: Duration::ZERO };
+        let mut exposing = Exposing { image: None, watch: Stopwatch::new(self.clock.clone()) };
         let passes = self.settings.photons.passes;
         let has_passes = shot.view.needs_photons() && self.settings.photons.is_progressive;
         if has_passes {
@@ -134,7 +139,7 @@ impl Tracing {
     }
 
     fn spent(&self, exposing: &Exposing) -> Duration {
-        exposing.elapsed + self.photons.as_ref().map_or(Duration::ZERO, PhotonRun::elapsed)
+        exposing.watch.elapsed() + self.photons.as_ref().map_or(Duration::ZERO, PhotonRun::elapsed)
     }
 
     /// Begins the picture with the light that there is now, or goes on with it.
@@ -147,15 +152,14 @@ impl Tracing {
         if shot.view.needs_photons() {
             self.photons()?;
         }
-        let start = Instant::now();
         let photons = self.photons.as_mut().filter(|_| shot.view.needs_photons()).map(PhotonRun::method);
         let lights = Lights { world: &self.world, radiosity, photons };
         let image = ImageSettings { samples: ImageSettings::MAX_SAMPLES, ..self.settings.image };
-        match &mut exposing.image {
-            Some(image) => self.methods.go_on(image, lights),
-            None => exposing.image = Some(self.methods.image(lights, shot, &Settings { image, ..self.settings })),
-        }
-        exposing.elapsed += start.elapsed();
+        let Exposing { image: picture, watch } = exposing;
+        watch.time(|| match picture {
+            Some(picture) => self.methods.go_on(picture, lights),
+            None => *picture = Some(self.methods.image(lights, shot, &Settings { image, ..self.settings })),
+        });
         Ok(())
     }
 }
@@ -163,21 +167,19 @@ impl Tracing {
 /// A picture in the making, with its clock.
 struct Exposing {
     image: Option<<Methods as Workshop>::Image>,
-    elapsed: Duration,
+    watch: Stopwatch,
 }
 
 impl Exposing {
     /// Goes on until every pixel has so many samples.
     fn expose(&mut self, samples: u32) {
         let Some(image) = &mut self.image else { return };
-        let start = Instant::now();
-        while image.samples() < samples && image.step(&Cancel::default()) == Step::Advanced {}
-        self.elapsed += start.elapsed();
+        self.watch.time(|| while image.samples() < samples && image.step(&Cancel::default()) == Step::Advanced {});
     }
 
     fn finished(&self) -> Option<CameraImage> {
         let image = self.image.as_ref()?.image()?;
-        Some(CameraImage { elapsed: self.elapsed, is_complete: true, ..image })
+        Some(CameraImage { elapsed: self.watch.elapsed(), is_complete: true, ..image })
     }
 }
 
@@ -195,6 +197,7 @@ pub fn photon_report(world: &World, settings: &Settings, photons: &PhotonSolutio
         "batches": photons.batches,
         "seconds": photons.elapsed.as_secs_f64(),
         "complete": photons.is_complete,
+        "warnings": Vec::from_iter(photons.warning()),
         "max_radius": photons.max_radius,
         "nearest": settings.photons.nearest,
         "kernel": settings.photons.kernel,
@@ -209,4 +212,51 @@ pub fn photon_report(world: &World, settings: &Settings, photons: &PhotonSolutio
     });
     effect_options::report(&mut report, Subject::Photons, world, settings, &photons.counters.bill);
     report
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::Camera;
+    use crate::clock::ManualTime;
+    use crate::mesh::MeshSettings;
+    use crate::methods::PhotonSettings;
+    use crate::scene::Scene;
+
+    /// The furnace, and so many seconds for it, on a clock on which each piece of work takes one.
+    fn tracing(seconds: u64) -> Tracing {
+        let scene = Scene::open("furnace").expect("a built-in scene");
+        let world = World::build(scene, &MeshSettings::default(), &Cancel::default()).expect("a world");
+        let photons = PhotonSettings { count: 100_000, ..PhotonSettings::default() };
+        let settings = Settings { photons, ..Settings::default() };
+        let clock = ManualTime::ticking(Duration::from_secs(1));
+        Tracing { clock, ..Tracing::new(Arc::new(world), settings, Some(Duration::from_secs(seconds))) }
+    }
+
+    #[test]
+    fn photons_are_traced_until_the_time_is_up() {
+        let photons = tracing(3).trace(|_| ()).expect("photons");
+        assert_eq!((photons.batches, photons.is_complete, photons.elapsed), (3, false, Duration::from_secs(3)));
+    }
+
+    #[test]
+    fn a_picture_has_the_samples_that_there_is_time_for() {
+        let mut tracing = tracing(5);
+        let camera = Camera::new(&tracing.world.viewpoint, &tracing.world.bounds);
+        let shot = CameraShot { view: CameraView::Reference, camera, size: [8, 8] };
+        let (image, _) = tracing.picture(&shot, None, None).expect("a picture");
+        // A second goes into its light.
+        assert_eq!((image.samples, image.elapsed), (4, Duration::from_secs(5)));
+        // One sample there is in any case.
+        tracing.time = Duration::ZERO;
+        let (image, _) = tracing.picture(&shot, None, None).expect("a picture");
+        assert_eq!(image.samples, 1);
+    }
+
+    #[test]
+    fn one_round_of_ambient_occlusion_there_is_in_any_case() {
+        let mut tracing = tracing(0);
+        tracing.settings.image.samples = ImageSettings::MAX_SAMPLES;
+        assert_eq!(tracing.occlusion().rounds, 1);
+    }
 }

@@ -2,7 +2,7 @@
 
 use super::{Path, Scattering};
 use crate::effects::Bill;
-use crate::math::rgb::{Rgb, Rgb64};
+use crate::math::rgb::{Rgb, Rgb64, total};
 use glam::Vec3;
 use std::sync::Arc;
 use std::time::Duration;
@@ -101,6 +101,25 @@ pub struct PhotonSolution {
     /// Of all photons of the global map.
     pub energy: PhotonEnergy,
     pub counters: PhotonCounters,
+}
+
+impl PhotonSolution {
+    /// The share of the emitted flux that may be truncated without a word: the relative standard error of the flux of a
+    /// million photons. More would be an error that more photons do not mend.
+    const TOLERATED_TRUNCATION: f64 = 1e-3;
+
+    /// What must be known of the light although all photons are there, if anything: what happened, why, and what to do.
+    pub fn warning(&self) -> Option<String> {
+        let emitted = total(self.energy.emitted);
+        let share = total(self.energy.truncated) / emitted;
+        (emitted > 0.0 && share > Self::TOLERATED_TRUNCATION).then(|| {
+            format!(
+                "{:.1} % of the emitted flux is truncated and missing in this light: surfaces reflect so much that these \
+                 photons reached the largest number of bounces; radiosity has no such bound",
+                100.0 * share
+            )
+        })
+    }
 }
 
 /// Where the flux of the photons is, W per channel, in double precision.

@@ -28,7 +28,7 @@ pub use gpu::{AdapterChoice, Gpu, GpuError, adapter_selector, choose_adapter, de
 pub use legend::Legend;
 pub use photons::{ColourClass, PhotonColour, PhotonLook};
 pub use picking::{pick_patch, pick_photon, pick_point};
-pub use picture::{Picture, render_picture};
+pub use picture::{Picture, check_size, render_picture};
 pub use pipelines::SHADERS;
 pub use view::{Frame, Light, View};
 

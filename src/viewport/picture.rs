@@ -157,7 +157,11 @@ impl Viewport {
     }
 }
 
-fn check_size(gpu: &Gpu, [width, height]: [u32; 2]) -> Result<(), GpuError> {
+/// Whether the graphics adapter can draw a picture of this width and height in pixels.
+///
+/// # Errors
+/// If it cannot.
+pub fn check_size(gpu: &Gpu, [width, height]: [u32; 2]) -> Result<(), GpuError> {
     let limit = gpu.device.limits().max_texture_dimension_2d;
     let possible = 1..=limit;
     if possible.contains(&width) && possible.contains(&height) {

@@ -25,11 +25,12 @@ pub use checks::{CheckReport, Checks};
 pub use command::{Command, LightKind, Place, Shown, Sight, Spot, Subject};
 pub use history::{Curve, CurvePoint};
 pub use methods::{Methods, TracedPhotons};
-pub use run::{PhotonRun, Refused, Run};
+pub use run::{PhotonRun, Refused, Run, check_picture};
 pub use track::{Track, TrackPoint};
 pub use workshop::{CameraShot, ImageMethod, Lights, OcclusionMethod, PhotonMethod, PhotonProgress, Workshop};
 
 use crate::accuracy::{Cache, Truth};
+use crate::clock::Clock;
 use crate::effects::Plan;
 use crate::methods::Settings;
 use crate::solution::{CameraImage, Equation, Gathered, PhotonSolution, PhotonTrail, Picked, Solution, VertexShares};
@@ -121,14 +122,14 @@ impl Worker {
     /// Starts the thread. `wake` is called from it after every new snapshot. What is found out about scenes is kept in the
     /// cache, if there is one.
     pub fn spawn(cache: Option<Cache>, wake: impl Fn() + Send + Sync + 'static) -> Self {
-        Self::spawn_with(Methods::with_cache(cache), wake)
+        Self::spawn_with(Methods::with_cache(cache), Clock::default(), wake)
     }
 
-    /// The same with methods from elsewhere.
-    pub fn spawn_with(workshop: impl Workshop, wake: impl Fn() + Send + Sync + 'static) -> Self {
+    /// Starts the thread with methods from elsewhere. All that it does by the time it does by this clock.
+    pub fn spawn_with(workshop: impl Workshop, clock: Clock, wake: impl Fn() + Send + Sync + 'static) -> Self {
         let mailbox = Arc::new(Mailbox::default());
         let slot = Arc::new(Slot { latest: Mutex::default(), wake: Box::new(wake) });
-        let solver = Solver::new(mailbox.clone(), slot.clone(), workshop);
+        let solver = Solver::new(mailbox.clone(), slot.clone(), workshop, clock);
         let thread =
             std::thread::Builder::new().name("solver".to_owned()).spawn(|| pool::in_background(|| solver.serve()));
         Self { mailbox, slot, thread: Some(thread.expect("the system can start a thread")) }

@@ -54,3 +54,21 @@ pub fn may_see(surfaces: &Surfaces, from: &[usize], to: &[usize], tolerance: f64
         })
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    /// Two tiles of one floor: no side of one faces the other.
+    #[test]
+    fn of_more_pairs_than_there_is_time_for_two_are_taken_to_see_each_other() {
+        let obj = "v 0 0 0\nv 0 0 1\nv 1 0 1\nv 1 0 0\nv 2 0 0\nv 2 0 1\nf 1 2 3 4\nf 4 3 6 5\n";
+        let scene = Scene::from_text("floor", obj, "").expect("a scene");
+        let surfaces = Surfaces::new(&scene);
+        let rows = 1 << 6;
+        let [from, to] = [(0, rows), (2, MOST_PAIRS / rows)].map(|(side, count): (usize, usize)| vec![side; count]);
+        assert!(!may_see(&surfaces, &from, &to, 0.0), "all pairs are looked at");
+        assert!(may_see(&surfaces, &from, &[&to[..], &[2]].concat(), 0.0), "and no pair more");
+    }
+}

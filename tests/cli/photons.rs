@@ -22,9 +22,11 @@ fn the_ledger_of_photons_closes_and_every_landing_is_counted() {
         "seconds",
         "simulated",
         "skipped",
+        "warnings",
     ];
     assert_eq!(keys(&report), fields);
     assert_eq!((&report["method"], &report["complete"]), (&"photon-map".into(), &true.into()));
+    assert_eq!(report["warnings"].as_array().map(Vec::len), Some(0), "{report}");
     assert_eq!(keys(&report["energy"]), ["absorbed", "defect", "emitted", "escaped", "truncated"]);
     let energy = |name: &str| number(&report["energy"][name]);
     let sum = energy("absorbed") + energy("escaped") + energy("truncated") + energy("defect");
@@ -180,4 +182,21 @@ fn light_on_a_black_floor_is_known_or_its_lack_is_told() {
     assert_contains(stderr(&output), &["--method radiosity leaves out light", "mirrors", "reference know it"]);
     let single = json(&folder, &format!("{} --samples 1 --json", probe("final-gather")));
     assert!(single["points"][0]["standard_error"][0].is_null(), "{single}");
+}
+
+/// A closed room of which every surface reflects all light: no photon is ever absorbed.
+#[test]
+fn truncated_flux_is_warned_of() {
+    let folder = folder();
+    let obj = "mtllib w.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nusemtl w\n\
+               f 2 3 4 1\nf 8 7 6 5\nf 5 6 2 1\nf 3 7 8 4\nf 4 8 5 1\nf 6 7 3 2\n";
+    std::fs::write(folder.path().join("white.obj"), obj).expect("a file");
+    std::fs::write(folder.path().join("w.mtl"), "newmtl w\nKd 1 1 1\nKe 1 1 1\n").expect("a file");
+    let solve = "solve white.obj --method photon-map --photons 50";
+    let report = json(&folder, &format!("{solve} --json"));
+    let [emitted, truncated] = ["emitted", "truncated"].map(|name| number(&report["energy"][name]));
+    let warnings = report["warnings"].as_array().expect("a list");
+    assert!(warnings.len() == 1 && truncated > 0.9 * emitted, "{report}");
+    assert_contains(warnings[0].as_str().expect("text"), &["% of the emitted flux is truncated", "radiosity"]);
+    assert_contains(&printed(&folder, solve), &["warning: ", "% of the emitted flux is truncated"]);
 }

@@ -73,3 +73,20 @@ fn warnings_go_to_standard_error() {
     let report: Value = serde_json::from_str(stdout(&lit)).expect("JSON");
     assert!(number(&report["energy"]["absorbed"]) > 0.0);
 }
+
+/// Before anything is allocated: 10^12 pixels are more than any machine has room for.
+#[test]
+fn a_picture_that_does_not_fit_into_memory_is_refused() {
+    let folder = folder();
+    for command in [
+        "render furnace -o x.png --view reference --samples 1",
+        "render furnace -o x.exr",
+        "render furnace -o x.png --error 5",
+        "render furnace -o x.png --view matrix --solver jacobi",
+        "series furnace -o pictures",
+    ] {
+        let message = refusal(&folder, &format!("{command} --size 1000000x1000000"), 1);
+        assert_contains(&message, &["a picture of 1000000 × 1000000 pixels needs", "MiB", "are free", "smaller size"]);
+    }
+    assert_eq!(files(folder.path()), [""; 0]);
+}

@@ -85,11 +85,9 @@ fn a_solve_stops_when_it_is_told_to() {
     assert!(unshot_share(&before) > 0.1, "it stops at the first step that will do");
     let default = json(&folder, "solve furnace --element 0.25 --json");
     assert!(unshot_share(&default) <= 1e-3 && default["converged"] == true);
-    // By the clock it goes on past any limit; the last step may be under way when time is up.
+    // By the clock it goes on past any limit.
     let timed = json(&folder, "solve cornell-box --method radiosity --time 0.3 --json");
-    let seconds = number(&timed["seconds"]);
-    assert!((0.3..3.0).contains(&seconds), "{seconds}");
-    assert!(number(&timed["steps"]) > 0.0);
+    assert!(number(&timed["seconds"]) >= 0.3 && number(&timed["steps"]) > 0.0, "{timed}");
     let none = json(&folder, "solve furnace --steps 0 --json");
     assert_eq!((number(&none["steps"]), unshot_share(&none)), (0.0, 1.0));
 }

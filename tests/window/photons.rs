@@ -281,3 +281,14 @@ fn a_picked_photon_and_a_picked_point_are_described_and_can_be_forgotten() {
         assert!(harness.query_all_by_label(&thin(text)).next().is_some(), "{text}");
     }
 }
+
+/// A twentieth of the flux of the photons on this stage is truncated.
+#[test]
+fn truncated_flux_is_warned_of() {
+    let warning = photons().warning().expect("a warning");
+    assert!(warning.starts_with("5.0 % of the emitted flux is truncated"), "{warning}");
+    assert!(is_shown(photon_stage(), &warning));
+    let mut whole = photons();
+    whole.energy.truncated *= 0.01;
+    assert_eq!(whole.warning(), None);
+}

@@ -3,6 +3,7 @@
 use glam::Vec3A;
 use lightwell::accuracy::{Cache, Found, ProbePoint, Reference};
 use lightwell::cancel::Cancel;
+use lightwell::clock::Clock;
 use lightwell::effects::Bill;
 use lightwell::math::rgb::Rgb;
 use lightwell::methods::{Method, PhotonSettings, Settings, Step};
@@ -15,7 +16,7 @@ use lightwell::worker::{
 use lightwell::world::World;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// What a step does, given the number of steps before it.
 type Work = dyn Fn(u64, &Cancel) -> Step + Send + Sync;
@@ -28,6 +29,8 @@ pub struct Fakes {
     occlusion: Arc<Work>,
     image: Arc<Work>,
     counts: Arc<Counts>,
+    has_reference: bool,
+    clock: Clock,
 }
 
 /// How often something was done.
@@ -83,10 +86,25 @@ impl Fakes {
         Self { image: Arc::new(work), ..self }
     }
 
+    /// With a reference that errors are measured against.
+    pub fn with_reference(self) -> Self {
+        Self { has_reference: true, ..self }
+    }
+
+    /// On a thread that lives by this clock.
+    pub fn on(self, clock: Clock) -> Self {
+        Self { clock, ..self }
+    }
+
+    /// How often its methods do what.
+    pub fn counts(&self) -> Arc<Counts> {
+        self.counts.clone()
+    }
+
     /// The worker, and how often its methods did what.
     pub fn spawn(self) -> (Worker, Arc<Counts>) {
-        let counts = self.counts.clone();
-        (Worker::spawn_with(self, || ()), counts)
+        let (counts, clock) = (self.counts(), self.clock.clone());
+        (Worker::spawn_with(self, clock, || ()), counts)
     }
 }
 
@@ -100,6 +118,8 @@ impl Default for Fakes {
             occlusion: Arc::new(short_step),
             image: Arc::new(short_step),
             counts: Arc::default(),
+            has_reference: false,
+            clock: Clock::default(),
         };
         fakes.radiosity(short_step)
     }
@@ -130,8 +150,8 @@ impl Workshop for Fakes {
         Box::new(FakeOcclusion { work, counts, rounds: 0, settings: *settings })
     }
 
-    fn reference(&mut self, _: &Arc<World>) -> Option<(Reference, Option<Cache>)> {
-        None
+    fn reference(&mut self, world: &Arc<World>) -> Option<(Reference, Option<Cache>)> {
+        self.has_reference.then(|| (Reference::new(world.clone()), None))
     }
 
     fn image(&mut self, lights: Lights<'_, FakePhotons>, shot: &CameraShot, _: &Settings) -> FakeImage {
@@ -360,24 +380,9 @@ pub fn method(work: impl Fn(u64, &Cancel) -> Step + Send + Sync + 'static) -> Fa
     Fakes::default().radiosity(work)
 }
 
-/// A step that takes a second, unless it is told to stop.
-pub fn long_step(_: u64, cancel: &Cancel) -> Step {
-    step_of(Duration::from_secs(1), cancel)
-}
-
-/// A step that is over at once.
-pub fn short_step(_: u64, cancel: &Cancel) -> Step {
-    step_of(Duration::from_micros(100), cancel)
-}
-
-/// A step that takes so long, unless it is told to stop.
-pub fn step_of(duration: Duration, cancel: &Cancel) -> Step {
-    let start = Instant::now();
-    while start.elapsed() < duration {
-        if cancel.is_requested() {
-            return Step::Cancelled;
-        }
-        std::thread::sleep(Duration::from_micros(100));
-    }
+/// A step that is over soon.
+pub fn short_step(_: u64, _: &Cancel) -> Step {
+    // So that a run without an end leaves the machine to others.
+    std::thread::sleep(Duration::from_micros(100));
     Step::Advanced
 }

@@ -1,11 +1,13 @@
 //! Radiosity and photons side by side.
 
 use crate::fake::{self, BATCHES, Counts, Fakes};
-use crate::{load, look, steps, wait_for};
+use crate::pace::Gate;
+use crate::{load, look, steps, wait_for, wait_until};
 use lightwell::methods::{PhotonSettings, Settings, Step};
 use lightwell::solution::{CameraView, Photon};
 use lightwell::worker::{Command, LightKind, Phase, Snapshot, Spot, Subject, Worker};
 use std::sync::Arc;
+use std::sync::mpsc::channel;
 use std::time::Duration;
 
 fn batches(snapshot: &Snapshot) -> u64 {
@@ -84,17 +86,25 @@ fn photons_begin_when_they_are_first_needed() {
 
 #[test]
 fn what_is_on_show_is_worked_on_first_and_then_the_other_light() {
-    let (worker, counts) =
-        Fakes::default().photons(|_, cancel| fake::step_of(Duration::from_millis(30), cancel)).spawn();
+    let fakes = Fakes::default();
+    let (tell, told) = channel();
+    let counts = fakes.counts();
+    let (worker, counts) = fakes
+        .photons(move |batch, cancel| {
+            // Nobody listens once the test is over.
+            let _ = tell.send(Counts::of(&counts.radiosity_steps));
+            fake::short_step(batch, cancel)
+        })
+        .spawn();
     load(&worker, "furnace");
     worker.send(Command::Run);
     wait_for(&worker, "running", |now| steps(now) > 0);
     look(&worker, Subject::Photons);
     worker.send(Command::Run);
-    let first = wait_for(&worker, "traced", |now| batches(now) >= 1);
-    let last = wait_for(&worker, "traced", |now| batches(now) == BATCHES);
-    assert!(Counts::of(&counts.radiosity_steps) > 0);
-    assert_eq!(steps(&last), steps(&first), "radiosity waits");
+    wait_for(&worker, "traced", |now| batches(now) == BATCHES);
+    let radiosity: Vec<u64> = told.try_iter().collect();
+    assert_eq!(radiosity.len() as u64, BATCHES);
+    assert!(radiosity[0] > 0 && radiosity.iter().all(|&steps| steps == radiosity[0]), "radiosity waits: {radiosity:?}");
     // It goes on where it was when there is nothing to do on the photons.
     let before = Counts::of(&counts.radiosity_steps);
     wait_for(&worker, "further", |_| Counts::of(&counts.radiosity_steps) > before + 10);
@@ -148,12 +158,17 @@ fn another_scene_starts_both_anew_and_each_runs_on_if_it_ran() {
     assert!(after.gathered.is_none() && after.image.is_none());
     assert_eq!((Counts::of(&counts.radiosity_starts), Counts::of(&counts.photon_starts)), (2, 2));
 
-    let (worker, _) = Fakes::default().photons(|_, cancel| fake::step_of(Duration::from_millis(20), cancel)).spawn();
+    let gate = Gate::default();
+    let step = gate.clone();
+    let (worker, _) = Fakes::default().photons(move |_, cancel| step.step(cancel)).spawn();
     load(&worker, "furnace");
     look(&worker, Subject::Photons);
     worker.send(Command::Run);
-    wait_for(&worker, "running", |now| batches(now) > 0);
+    gate.pass_one();
+    // It interrupts the second batch; all batches of the other scene may pass.
     worker.send(Command::Load("empty-box".to_owned()));
+    wait_until("interrupted", || gate.cancelled() == 1);
+    gate.open(BATCHES);
     let end = wait_for(&worker, "complete", |now| crate::name(now) == "empty-box" && batches(now) == BATCHES);
     assert_eq!(steps(&end), 0);
 }
@@ -206,21 +221,21 @@ fn what_is_picked_among_photons_keeps_up_with_them() {
 
 #[test]
 fn a_long_batch_is_interrupted_by_another_view_and_not_by_a_camera_that_moves() {
-    let (worker, counts) =
-        Fakes::default().photons(|_, cancel| fake::step_of(Duration::from_millis(200), cancel)).spawn();
+    let gate = Gate::default();
+    let step = gate.clone();
+    let (worker, _) = Fakes::default().photons(move |_, cancel| step.step(cancel)).spawn();
     load(&worker, "furnace");
     look(&worker, Subject::Photons);
     worker.send(Command::Run);
-    wait_for(&worker, "running", |now| now.phase == Phase::Running);
+    gate.wait_for_step_after(0);
     for i in 0..40 {
         crate::look_from(&worker, Subject::Photons, 2.0 + i as f32);
-        std::thread::sleep(Duration::from_millis(10));
     }
-    assert!(Counts::of(&counts.photon_steps) >= 1, "a camera that moves stops the photons");
-    let start = std::time::Instant::now();
+    gate.pass_one();
+    assert_eq!(gate.cancelled(), 0, "a camera that moves stops the photons");
     look(&worker, Subject::Camera(CameraView::RayTraced));
     wait_for(&worker, "traced", |now| now.image.is_some());
-    assert!(start.elapsed() < Duration::from_millis(100), "{:?}", start.elapsed());
+    assert_eq!(gate.cancelled(), 1);
     assert_eq!(Subject::Camera(CameraView::RayTraced).light(), None);
     assert_eq!(Subject::Camera(CameraView::Caustics).light(), Some(LightKind::Photons));
 }

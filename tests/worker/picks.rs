@@ -1,8 +1,10 @@
 //! What is picked in the light on surfaces: looked into between steps, kept up with the light, forgotten with its world.
 
+use crate::pace::Gate;
 use crate::{fake, load, look, look_from, name, steps, wait_for, with_elements};
 use glam::Vec3;
 use lightwell::cancel::Cancel;
+use lightwell::clock::ManualTime;
 use lightwell::math::rgb::total;
 use lightwell::methods::radiosity::Progressive;
 use lightwell::methods::{Method, Settings, Step};
@@ -58,12 +60,17 @@ fn the_equation_at_a_picked_point_follows_the_light() {
 #[test]
 fn while_light_grows_it_is_looked_into_again_and_again() {
     // Every shot of the furnace brings light to the patch that is picked.
-    let (worker, _) = slow(Duration::from_millis(20), u64::MAX);
+    let gate = Gate::default();
+    let (worker, _) = gated(&gate, u64::MAX);
     worker.send(Command::Run);
+    gate.wait_for_step_after(0);
     for _ in 0..3 {
         let before = total(equation(&worker.latest()).balance.radiosity);
-        let grown = wait_for(&worker, "grown", |now| total(equation(now).balance.radiosity) > before);
-        assert_eq!(grown.phase, Phase::Running);
+        // After 100 ms, of 20 a shot, and between shots.
+        (0..6).for_each(|_| gate.pass_one());
+        let now = worker.latest();
+        assert!(total(equation(&now).balance.radiosity) > before);
+        assert_eq!(now.phase, Phase::Running);
     }
 }
 
@@ -113,16 +120,20 @@ fn other_settings_have_it_looked_into_anew() {
     assert_eq!((equation(&after).balance.patch, source_of(&after)), (0, Some(9)));
 }
 
-/// Progressive radiosity with slow shots, which in the end tells of no light.
-struct Slow {
+/// Progressive radiosity with shots of 20 ms that wait at a gate, which in the end tells of no light.
+struct Gated {
     method: Progressive,
-    shot: Duration,
+    gate: Gate,
+    time: ManualTime,
     shots_with_light: u64,
 }
 
-impl Method for Slow {
+impl Method for Gated {
     fn step(&mut self, cancel: &Cancel) -> Step {
-        std::thread::sleep(self.shot);
+        if self.gate.step(cancel) == Step::Cancelled {
+            return Step::Cancelled;
+        }
+        self.time.advance(Duration::from_millis(20));
         self.method.step(cancel)
     }
 
@@ -141,11 +152,14 @@ impl Method for Slow {
 }
 
 /// A furnace with such radiosity, in which a patch is picked.
-fn slow(shot: Duration, shots_with_light: u64) -> (Worker, Arc<fake::Counts>) {
+fn gated(gate: &Gate, shots_with_light: u64) -> (Worker, Arc<fake::Counts>) {
+    let (gate, time) = (gate.clone(), ManualTime::default());
+    let clock = time.clock();
     let start = move |world: Arc<World>, settings: &Settings| -> Box<dyn Method> {
-        Box::new(Slow { method: Progressive::new(world, *settings), shot, shots_with_light })
+        let method = Progressive::new(world, *settings);
+        Box::new(Gated { method, gate: gate.clone(), time: time.clone(), shots_with_light })
     };
-    let (worker, counts) = fake::Fakes::default().starting(start).spawn();
+    let (worker, counts) = fake::Fakes::default().starting(start).on(clock).spawn();
     worker.send(Command::Configure(with_elements(0.125)));
     let loaded = load(&worker, "furnace");
     look(&worker, Subject::Radiosity);
@@ -156,7 +170,9 @@ fn slow(shot: Duration, shots_with_light: u64) -> (Worker, Arc<fake::Counts>) {
 
 #[test]
 fn a_panic_while_it_is_looked_into_ends_that_alone() {
-    let (worker, counts) = slow(Duration::ZERO, 0);
+    let gate = Gate::default();
+    gate.open(2);
+    let (worker, counts) = gated(&gate, 0);
     worker.send(Command::Step(1));
     let crashed = wait_for(&worker, "crashed", |now| now.error.is_some());
     let error = crashed.error.as_ref().expect("a message");

@@ -1,18 +1,19 @@
 //! Pictures from a camera: coarse first, refined without being told to, made anew when their light has grown.
 
-use crate::fake::{self, BATCHES, Counts, Fakes};
-use crate::{load, look, look_from, median, steps, wait_for, wait_until};
+use crate::fake::{BATCHES, Counts, Fakes};
+use crate::pace::{Gate, Watched};
+use crate::{PATIENCE, load, look, look_from, steps, wait_for, wait_until};
+use lightwell::clock::{Clock, ManualTime};
 use lightwell::methods::{ImageSettings, Kernel, OcclusionSettings, PhotonSettings, Settings, Step};
 use lightwell::solution::{CameraImage, CameraView};
 use lightwell::worker::{Command, Phase, Snapshot, Subject, Worker};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, Instant};
+use std::sync::mpsc::channel;
+use std::time::Duration;
 
 const RAYS: Subject = Subject::Camera(CameraView::RayTraced);
 const GATHER: Subject = Subject::Camera(CameraView::FinalGather);
-/// What a command may take until it shows.
-const PROMPT: Duration = Duration::from_millis(50);
 
 fn image(snapshot: &Snapshot) -> Option<&CameraImage> {
     snapshot.image.as_deref()
@@ -29,40 +30,49 @@ fn finished(worker: &Worker, view: CameraView) -> Arc<Snapshot> {
 
 #[test]
 fn a_picture_refines_by_itself_and_ends() {
-    let (worker, counts) = Fakes::default().image(|_, cancel| fake::step_of(Duration::from_millis(5), cancel)).spawn();
+    let (time, gate) = (ManualTime::default(), Gate::default());
+    let (clock, step) = (time.clock(), gate.clone());
+    let work = move |_, cancel: &_| {
+        time.advance(Duration::from_millis(5));
+        step.step(cancel)
+    };
+    let (worker, counts) = Fakes::default().on(clock).image(work).spawn();
     load(&worker, "furnace");
     look(&worker, RAYS);
+    gate.open(1);
     let coarse = wait_for(&worker, "seen", |now| now.image.is_some());
     let first = image(&coarse).expect("an image");
     assert!(first.resolution == [1, 1] && !first.is_complete, "coarse first");
     assert_eq!(coarse.phase, Phase::Running);
+    gate.open(100);
     let end = finished(&worker, CameraView::RayTraced);
     assert_eq!((samples(&end), &end.phase), (end.settings.image.samples, &Phase::Converged));
-    assert!(image(&end).is_some_and(|image| image.elapsed >= Duration::from_millis(5 * 17)));
-    let steps = Counts::of(&counts.image_steps);
-    std::thread::sleep(PROMPT);
-    assert_eq!(Counts::of(&counts.image_steps), steps);
+    // The coarse pass and all samples.
+    let steps = 1 + end.settings.image.samples;
+    assert_eq!(image(&end).map(|image| image.elapsed), Some(steps * Duration::from_millis(5)));
+    // It has nothing to do until another command comes.
+    worker.send(Command::Pause);
+    look(&worker, Subject::Radiosity);
+    wait_for(&worker, "looked at", |now| now.phase == Phase::Paused);
+    assert_eq!(Counts::of(&counts.image_steps), u64::from(steps));
 }
 
 #[test]
 fn a_camera_that_moves_interrupts_the_picture_and_starts_it_coarse() {
-    let work = |steps, cancel: &_| if steps == 0 { Step::Advanced } else { fake::long_step(steps, cancel) };
+    let gate = Gate::default();
+    let step = gate.clone();
+    let work = move |steps, cancel: &_| if steps == 0 { Step::Advanced } else { step.step(cancel) };
     let (worker, counts) = Fakes::default().image(work).spawn();
     load(&worker, "furnace");
-    let times = (0..7).map(|i| {
+    for i in 0..7 {
         look_from(&worker, RAYS, 1.0 + i as f32);
         let camera = crate::sight(RAYS, 1.0 + i as f32).camera;
-        let start = Instant::now();
         let seen = wait_for(&worker, "seen", |now| image(now).is_some_and(|image| image.camera == camera));
         assert_eq!(image(&seen).map(|image| (image.samples, image.resolution)), Some((0, [1, 1])));
-        // So long that the next step is certainly under way.
-        let elapsed = start.elapsed();
-        std::thread::sleep(Duration::from_millis(20));
-        elapsed
-    });
-    let time = median(times.collect());
-    assert!(time < PROMPT, "{time:?}");
-    assert!(Counts::of(&counts.cancelled_images) >= 6);
+        // The next step never ends, unless a camera that moves interrupts it.
+        gate.wait_for_step_after(i);
+    }
+    assert_eq!(Counts::of(&counts.cancelled_images), 6);
 }
 
 #[test]
@@ -153,7 +163,7 @@ fn photons_that_are_read_off_in_another_way_give_another_picture() {
 
 #[test]
 fn a_paused_light_leaves_its_picture_refining() {
-    let (worker, counts) = Fakes::default().image(|_, cancel| fake::step_of(Duration::from_millis(5), cancel)).spawn();
+    let (worker, counts) = Fakes::default().spawn();
     load(&worker, "furnace");
     look(&worker, GATHER);
     worker.send(Command::Step(3));
@@ -166,49 +176,67 @@ fn a_paused_light_leaves_its_picture_refining() {
 
 #[test]
 fn a_picture_and_its_growing_light_share_the_time() {
-    let slow = |_, cancel: &_| fake::step_of(Duration::from_millis(3), cancel);
-    let (worker, counts) = Fakes::default().radiosity(slow).image(slow).spawn();
+    const STEPS: u64 = 40;
+    let time = ManualTime::default();
+    let clock = time.clock();
+    let [of_light, of_picture] = [time.clone(), time].map(|time| move || time.advance(Duration::from_millis(3)));
+    let fakes = Fakes::default().on(clock).image(move |_, _| {
+        of_picture();
+        Step::Advanced
+    });
+    let (tell, told) = channel();
+    let counts = fakes.counts();
+    let work = move |steps, _: &_| {
+        of_light();
+        if steps == 0 || steps == STEPS {
+            // Nobody listens once the test is over.
+            let _ = tell.send([&counts.image_steps, &counts.image_starts].map(Counts::of));
+        }
+        if steps < STEPS { Step::Advanced } else { Step::Converged }
+    };
+    let (worker, _) = fakes.radiosity(work).spawn();
     load(&worker, "furnace");
     look(&worker, Subject::Camera(CameraView::RadiositySpecular));
+    wait_for(&worker, "seen", |now| now.image.is_some());
     worker.send(Command::Run);
-    let both = || [Counts::of(&counts.radiosity_steps), Counts::of(&counts.image_steps)];
-    wait_until("at work", || both()[0] >= 40);
-    let [light, picture] = both();
-    // Each of them is as long; where one has nothing to do the other goes on, so the light may have more.
-    assert!(picture >= light / 4, "{light} steps of light, {picture} of the picture");
-    let starts = Counts::of(&counts.image_starts);
+    let [before, after] = [(); 2].map(|()| told.recv_timeout(PATIENCE).expect("it runs until it converges"));
+    let [picture, starts] = [0, 1].map(|count: usize| after[count] - before[count]);
+    // Each of them is as long, and they take turns while the picture has something to do: until it has all samples of light
+    // that has not grown by a quarter.
+    assert!((STEPS / 2..=STEPS + 1).contains(&picture), "{picture} steps of the picture for {STEPS} of the light");
     // Made anew at a quarter more light each: from 1 to 40 steps that is at most log 40 / log 1.25, and one at the start.
     assert!((2..=18).contains(&starts), "{starts}");
-    worker.send(Command::Pause);
     let end = finished(&worker, CameraView::RadiositySpecular);
     assert_eq!(image(&end).map(|image| image.rays), Some(steps(&end)));
 }
 
 #[test]
 fn a_picture_on_show_stays_until_the_next_one_is_as_fine() {
-    let (worker, _) = Fakes::default()
-        .radiosity(|_, cancel| fake::step_of(Duration::from_millis(2), cancel))
-        .image(|_, cancel| fake::step_of(Duration::from_millis(2), cancel))
-        .spawn();
-    load(&worker, "furnace");
+    let watched = Watched::spawn(Fakes::default(), Clock::default());
+    let worker = &watched.worker;
+    worker.send(Command::Load("furnace".to_owned()));
+    watched.until_phase(&Phase::Paused);
     worker.send(Command::Step(10));
-    wait_for(&worker, "stepped", |now| steps(now) == 10 && now.phase == Phase::Paused);
-    look(&worker, Subject::Camera(CameraView::RadiositySpecular));
-    finished(&worker, CameraView::RadiositySpecular);
-    worker.send(Command::Run);
+    watched.until(|now| steps(now) == 10 && now.phase == Phase::Paused);
+    look(worker, Subject::Camera(CameraView::RadiositySpecular));
+    watched.until(|now| image(now).is_some_and(|image| image.is_complete));
+    worker.send(Command::Step(20));
     // Until there is twice the light, nothing coarse is seen.
-    let start = Instant::now();
-    while steps(&worker.latest()) < 18 {
-        let now = worker.latest();
-        assert!(samples(&now) > 0, "made of {:?} steps", image(&now).map(|image| image.rays));
-        assert!(start.elapsed() < crate::PATIENCE);
+    for now in watched.until(|now| steps(now) >= 20) {
+        assert!(steps(&now) >= 20 || samples(&now) > 0, "made of {:?} steps", image(&now).map(|image| image.rays));
     }
 }
 
 #[test]
 fn each_progressive_pass_gives_one_sample_of_every_pixel() {
     // The picture takes longer than its photons, which wait for it all the same.
-    let (worker, counts) = Fakes::default().image(|_, cancel| fake::step_of(Duration::from_millis(3), cancel)).spawn();
+    let time = ManualTime::default();
+    let clock = time.clock();
+    let work = move |_, _: &_| {
+        time.advance(Duration::from_millis(3));
+        Step::Advanced
+    };
+    let (worker, counts) = Fakes::default().on(clock).image(work).spawn();
     let loaded = load(&worker, "furnace");
     let photons = PhotonSettings { is_progressive: true, passes: 6, ..loaded.settings.photons };
     let image_settings = ImageSettings { samples: 3, ..loaded.settings.image };

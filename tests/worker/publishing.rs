@@ -1,55 +1,13 @@
 //! What is published, and how often.
 
-use crate::fake::{self, Fakes};
-use crate::{PATIENCE, load, name, steps, wait_for};
+use crate::fake;
+use crate::pace::Watched;
+use crate::{load, name, steps, wait_for};
+use lightwell::clock::{Clock, ManualTime};
 use lightwell::methods::Step;
-use lightwell::worker::{Command, Phase, Snapshot, Worker};
-use std::sync::atomic::{AtomicU32, Ordering};
-use std::sync::mpsc::{Receiver, Sender, channel};
-use std::sync::{Arc, Mutex};
-use std::time::{Duration, Instant};
-
-/// A worker of which no snapshot is missed: its thread waits until each has been looked at.
-struct Watched {
-    // In this order, so that the thread waits for nobody when the worker is dropped.
-    published: Receiver<()>,
-    seen: Sender<()>,
-    worker: Worker,
-}
-
-impl Watched {
-    fn new(fakes: Fakes) -> Self {
-        let (publish, published) = channel();
-        let (seen, wait) = channel();
-        let wait = Mutex::new(wait);
-        let worker = Worker::spawn_with(fakes, move || {
-            // Both fail once the test is over.
-            let _ = publish.send(());
-            let _ = wait.lock().map(|wait: std::sync::MutexGuard<'_, Receiver<()>>| wait.recv());
-        });
-        Self { published, seen, worker }
-    }
-
-    fn next(&self) -> Arc<Snapshot> {
-        self.published.recv_timeout(PATIENCE).expect("a snapshot");
-        let snapshot = self.worker.latest();
-        self.seen.send(()).expect("the thread waits");
-        snapshot
-    }
-
-    /// All snapshots up to the first in this phase.
-    fn until(&self, phase: &Phase) -> Vec<Arc<Snapshot>> {
-        let mut snapshots = vec![self.next()];
-        while snapshots.last().expect("one at least").phase != *phase {
-            snapshots.push(self.next());
-        }
-        snapshots
-    }
-
-    fn is_quiet(&self) -> bool {
-        self.published.recv_timeout(Duration::from_millis(100)).is_err()
-    }
-}
+use lightwell::worker::{Command, Phase, Snapshot};
+use std::sync::Arc;
+use std::time::Duration;
 
 fn phases(snapshots: &[Arc<Snapshot>]) -> Vec<Phase> {
     let mut phases: Vec<Phase> = snapshots.iter().map(|snapshot| snapshot.phase.clone()).collect();
@@ -60,7 +18,7 @@ fn phases(snapshots: &[Arc<Snapshot>]) -> Vec<Phase> {
 #[test]
 fn a_scene_is_opened_then_run_until_it_has_converged() {
     let work = |steps, _: &_| if steps < 3 { Step::Advanced } else { Step::Converged };
-    let watched = Watched::new(fake::method(work));
+    let watched = Watched::spawn(fake::method(work), Clock::default());
     let nothing = watched.worker.latest();
     assert_eq!(nothing.phase, Phase::Empty);
     assert!(nothing.world.is_none() && nothing.solution.is_none() && nothing.error.is_none());
@@ -74,7 +32,7 @@ fn a_scene_is_opened_then_run_until_it_has_converged() {
     assert!(watched.is_quiet());
 
     watched.worker.send(Command::Run);
-    let running = watched.until(&Phase::Converged);
+    let running = watched.until_phase(&Phase::Converged);
     assert_eq!(phases(&running), [Phase::Running, Phase::Converged]);
     assert_eq!(steps(running.last().expect("one at least")), 3);
     assert!(watched.is_quiet());
@@ -82,12 +40,12 @@ fn a_scene_is_opened_then_run_until_it_has_converged() {
 
 #[test]
 fn so_many_steps_are_done_and_each_is_published() {
-    let watched = Watched::new(fake::method(|_, _| Step::Advanced));
+    let watched = Watched::spawn(fake::method(|_, _| Step::Advanced), Clock::default());
     watched.worker.send(Command::Load("furnace".to_owned()));
-    watched.until(&Phase::Paused);
+    watched.until_phase(&Phase::Paused);
     for (asked, first) in [(1, 0), (10, 1), (100, 11)] {
         watched.worker.send(Command::Step(asked));
-        let published = watched.until(&Phase::Paused);
+        let published = watched.until_phase(&Phase::Paused);
         let counts: Vec<u64> = published.iter().map(|snapshot| steps(snapshot)).collect();
         // The first says that it runs, then there is one for each step.
         let expected: Vec<u64> = (first..=first + asked).collect();
@@ -108,21 +66,20 @@ fn no_step_is_done_where_none_is_asked_for() {
 }
 
 #[test]
-fn a_run_publishes_at_most_thirty_times_a_second_and_still_often_enough_to_watch() {
-    let published = Arc::new(AtomicU32::new(0));
-    let counter = published.clone();
-    let worker = Worker::spawn_with(fake::method(fake::short_step), move || {
-        counter.fetch_add(1, Ordering::SeqCst);
-    });
-    load(&worker, "furnace");
-    let start = Instant::now();
-    published.store(0, Ordering::SeqCst);
-    worker.send(Command::Run);
-    std::thread::sleep(Duration::from_secs(1));
-    let count = f64::from(published.load(Ordering::SeqCst));
-    // One that says that it runs, and the last one of before, which may be counted late; then one every 33 ms.
-    let most = 2.0 + start.elapsed().as_secs_f64() / 0.033;
-    assert!(count <= most, "{count} in {:?}", start.elapsed());
-    // A machine that is busy otherwise may miss two of three.
-    assert!(count >= 10.0, "{count} in {:?}", start.elapsed());
+fn a_run_publishes_thirty_times_a_second() {
+    const STEPS: u64 = 990;
+    let time = ManualTime::default();
+    let clock = time.clock();
+    let work = move |steps, _: &_| {
+        time.advance(Duration::from_millis(1));
+        if steps < STEPS { Step::Advanced } else { Step::Converged }
+    };
+    let watched = Watched::spawn(fake::method(work), clock);
+    watched.worker.send(Command::Load("furnace".to_owned()));
+    watched.until_phase(&Phase::Paused);
+    watched.worker.send(Command::Run);
+    let published: Vec<u64> = watched.until_phase(&Phase::Converged).iter().map(|now| steps(now)).collect();
+    // Every 33 ms, and so every 33 steps; and that it runs, and that it has converged.
+    let expected: Vec<u64> = (0..=STEPS).step_by(33).chain([STEPS]).collect();
+    assert_eq!(published, expected);
 }

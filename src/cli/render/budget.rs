@@ -7,7 +7,7 @@ use crate::cli::budget::Budget;
 use crate::cli::seeking::picture_for;
 use crate::cli::{CliError, refuse};
 use crate::study::{self, Way};
-use crate::viewport::{Gpu, Light, View};
+use crate::viewport::{Light, View};
 
 /// Ways whose pictures can be made for a budget.
 const WAYS: [Way; 4] = [Way::Reference, Way::RadiosityDirect, Way::FinalGather, Way::DiffuseAo];
@@ -47,7 +47,7 @@ impl Options {
 
     pub(super) fn draw_within(&self, budget: &Budget) -> Result<Drawn, CliError> {
         let way = self.way();
-        let gpu = Gpu::new(&self.camera.adapter)?;
+        let gpu = self.camera.gpu()?;
         let (world, found, account) = picture_for(budget, &self.run, &self.camera, way)?;
         let light = match found.light {
             Some(study::Light::Radiosity(_, solution)) => Light { solution: Some(solution), ..Light::default() },

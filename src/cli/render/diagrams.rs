@@ -10,12 +10,14 @@ use crate::methods::radiosity;
 use crate::solution::Picked;
 use crate::viewport::diagram::{self, Diagram, MatrixDiagram};
 use crate::viewport::{Light, pick_patch};
+use crate::worker::check_picture;
 use crate::world::World;
 use serde_json::json;
 use std::sync::Arc;
 
 impl Options {
     pub(super) fn draw_diagram(&self, diagram: Diagram) -> Result<Drawn, CliError> {
+        check_picture(self.camera.size)?;
         let (solved, light) = self.solve()?;
         let Solved { world, settings, .. } = &solved;
         let limit = self.camera.size[0].min(self.camera.size[1]);

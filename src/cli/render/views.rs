@@ -17,8 +17,7 @@ use std::sync::Arc;
 
 impl Options {
     pub(super) fn draw_view(&self, view: View) -> Result<Drawn, CliError> {
-        // Whether there is something to draw with is told before the time is spent.
-        let gpu = Gpu::new(&self.camera.adapter)?;
+        let gpu = self.camera.gpu()?;
         match view {
             View::Camera(view) => self.draw_by_rays(&gpu, view),
             View::Photons | View::KdTree => self.draw_photons(&gpu, view),

@@ -31,6 +31,7 @@ pub use density::Estimate;
 pub use maps::{PhotonFilter, PhotonMaps, Scratch, Which};
 pub use nearest::Nearest;
 pub use points::ProgressivePoints;
+pub use trace::MAX_BOUNCES;
 pub use trail::trail;
 pub use tree::{Entry, Found, Tree};
 

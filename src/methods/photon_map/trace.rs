@@ -8,8 +8,11 @@ use crate::methods::transport::{Bsdf, Emission, Surface, Transport};
 use crate::solution::{Path, Scattering};
 use glam::Vec3A;
 
-/// Photons that have met this many surfaces are given up. With a reflectance of 0.99 everywhere that is 3e-5 of the flux.
-pub const MAX_BOUNCES: usize = 1024;
+/// Photons that have met this many surfaces are given up. With a reflectance of 0.999 everywhere that is 8e-8 of the flux.
+/// Roulette with a lower chance of survival than the reflectance ρ would be unbiased and end sooner, but weights then grow
+/// faster than photons die: from a chance of ρ² down the variance has no bound. So the bound is far, and what is lost there
+/// is told ([`crate::solution::PhotonSolution::warning`]).
+pub const MAX_BOUNCES: usize = 1 << 14;
 
 /// Streams of random numbers of photons start here, out of the way of other uses.
 const FIRST_PASS: u64 = 1 << 32;

@@ -1,10 +1,10 @@
 //! The pictures from one camera, one for each view that was looked at from there, and what each of them needs next.
 
 use crate::cancel::Cancel;
+use crate::clock::Stopwatch;
 use crate::methods::Step;
 use crate::solution::{CameraImage, CameraView};
 use crate::worker::workshop::{CameraShot, ImageMethod};
-use std::time::{Duration, Instant};
 
 /// All pictures are from the same camera, of the same size, by the same settings.
 pub struct Easel<I> {
@@ -59,7 +59,7 @@ pub struct Picture<I> {
     shot: CameraShot,
     image: I,
     made_of: Amount,
-    elapsed: Duration,
+    watch: Stopwatch,
     shown: Option<Published>,
 }
 
@@ -107,12 +107,13 @@ impl<I: ImageMethod> Easel<I> {
         self.pictures.iter_mut().find(|picture| picture.shot.view == view)
     }
 
-    /// Puts up a picture in place of an older one of the same view, which stays on show until this one is as good.
-    pub fn begin(&mut self, shot: CameraShot, image: I, made_of: Amount) {
+    /// Puts up a picture in place of an older one of the same view, which stays on show until this one is as good. Its steps
+    /// are timed by `watch`.
+    pub fn begin(&mut self, shot: CameraShot, image: I, made_of: Amount, watch: Stopwatch) {
         let old = self.picture(shot.view).and_then(|old| old.shown);
         let shown = old.filter(|old| old.made_of.start == made_of.start);
         self.forget(|view| view == shot.view);
-        self.pictures.push(Picture { shot, image, made_of, elapsed: Duration::ZERO, shown });
+        self.pictures.push(Picture { shot, image, made_of, watch, shown });
     }
 }
 
@@ -140,10 +141,7 @@ impl<I: ImageMethod> Picture<I> {
 
     /// One step on the clock.
     pub fn step(&mut self, cancel: &Cancel) -> Step {
-        let start = Instant::now();
-        let step = self.image.step(cancel);
-        self.elapsed += start.elapsed();
-        step
+        self.watch.time(|| self.image.step(cancel))
     }
 
     /// The picture, once it should take the place of what is shown of its view.
@@ -155,7 +153,7 @@ impl<I: ImageMethod> Picture<I> {
             return None;
         }
         self.shown = Some(Published { made_of: self.made_of, fineness });
-        Some(CameraImage { elapsed: self.elapsed, ..image })
+        Some(CameraImage { elapsed: self.watch.elapsed(), ..image })
     }
 }
 

@@ -6,7 +6,7 @@ use crate::solution::Solution;
 use crate::worker::LightKind;
 use crate::worker::run::PhotonRun;
 use crate::worker::workshop::{PhotonMethod, Workshop};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// While the truth gets better known, snapshots are at least this far apart.
 const PUBLISH_INTERVAL: Duration = Duration::from_millis(250);
@@ -70,7 +70,7 @@ impl<W: Workshop> Solver<W> {
         }
         self.judge.refine(self.mailbox.step_cancel());
         self.show_tracks();
-        if self.published.elapsed() >= PUBLISH_INTERVAL || !self.judge.wants_more() {
+        if self.clock.since(self.published) >= PUBLISH_INTERVAL || !self.judge.wants_more() {
             self.publish();
         }
     }
@@ -78,21 +78,21 @@ impl<W: Workshop> Solver<W> {
     /// Does this on account: where nothing else is at work, nothing is held up.
     pub(super) fn on_account(&mut self, judge: impl FnOnce(&mut Self)) {
         let is_busy = self.next_of_light().is_some();
-        let start = Instant::now();
+        let start = self.clock.now();
         judge(self);
         if is_busy {
-            self.judge.spend(start.elapsed().as_secs_f64());
+            self.judge.spend(self.clock.since(start).as_secs_f64());
         }
     }
 
     /// Every pass of progressive photons has its part in their mean.
     pub(super) fn count_pass(&mut self) {
         let Some(reference) = self.judge.reference() else { return };
-        let start = Instant::now();
+        let start = self.clock.now();
         if let Some(run) = &mut self.photons.run {
             run.method().count_pass(reference.points());
         }
-        self.judge.spend(start.elapsed().as_secs_f64());
+        self.judge.spend(self.clock.since(start).as_secs_f64());
     }
 
     pub(super) fn show_tracks(&mut self) {

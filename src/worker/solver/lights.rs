@@ -73,7 +73,7 @@ impl<W: Workshop> Solver<W> {
         } else {
             // Should the method panic before its first step, the world on show stays, and its light with it.
             let method = self.workshop.radiosity(&world, &settings)?;
-            self.radiosity.begin(Run::of(method));
+            self.radiosity.begin(Run::of(method).with_clock(self.clock.clone()));
             self.judge.follow(&world);
             self.show_tracks();
             self.snapshot.plan = Some(Arc::new(plan(&world)));
@@ -93,7 +93,7 @@ impl<W: Workshop> Solver<W> {
     pub(super) fn start_photons(&mut self, world: &Arc<World>) -> Result<(), Refused> {
         self.at_work = Part::Light(LightKind::Photons);
         let method = self.workshop.photons(world, &self.snapshot.settings)?;
-        self.photons.begin(PhotonRun::of(method));
+        self.photons.begin(PhotonRun::of(method).with_clock(self.clock.clone()));
         self.judge.tracks.begin(LightKind::Photons, &self.snapshot.settings);
         self.snapshot.trail = None;
         self.record_photons();
@@ -104,7 +104,7 @@ impl<W: Workshop> Solver<W> {
     pub(super) fn start_occlusion(&mut self, world: &Arc<World>) {
         self.at_work = Part::Light(LightKind::Occlusion);
         let method = self.workshop.occlusion(world, &self.snapshot.settings);
-        self.occlusion.begin(OcclusionRun::of(method));
+        self.occlusion.begin(OcclusionRun::of(method).with_clock(self.clock.clone()));
         self.record_occlusion();
     }
 

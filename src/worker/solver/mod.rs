@@ -14,6 +14,7 @@ use super::mailbox::{Mail, Mailbox};
 use super::run::{OcclusionRun, PhotonRun, Run};
 use super::workshop::Workshop;
 use super::{Command, LightKind, Phase, Sight, Slot, Snapshot, Spot, Subject};
+use crate::clock::Clock;
 use crate::errors::with_causes;
 use crate::scene::Scene;
 use crate::solution::CameraView;
@@ -36,6 +37,7 @@ pub struct Solver<W: Workshop> {
     mailbox: Arc<Mailbox>,
     slot: Arc<Slot>,
     workshop: W,
+    clock: Clock,
     /// What was published last; its parts are shared with whoever looks at it.
     snapshot: Snapshot,
     /// The scene that is being read, if one is.
@@ -109,11 +111,13 @@ enum Task {
 }
 
 impl<W: Workshop> Solver<W> {
-    pub fn new(mailbox: Arc<Mailbox>, slot: Arc<Slot>, workshop: W) -> Self {
+    pub fn new(mailbox: Arc<Mailbox>, slot: Arc<Slot>, workshop: W, clock: Clock) -> Self {
         Self {
+            published: clock.now(),
             mailbox,
             slot,
             workshop,
+            clock,
             snapshot: Snapshot::default(),
             loading: None,
             sight: None,
@@ -128,7 +132,6 @@ impl<W: Workshop> Solver<W> {
             spot: None,
             lead: 0.0,
             at_work: Part::Light(LightKind::Radiosity),
-            published: Instant::now(),
         }
     }
 
@@ -199,7 +202,7 @@ impl<W: Workshop> Solver<W> {
     }
 
     fn work(&mut self, task: Task) {
-        let start = Instant::now();
+        let start = self.clock.now();
         let weight = match task {
             Task::LookFrom(patch) => return self.look_from(patch),
             Task::Equation => return self.look_into_equation(),
@@ -215,7 +218,7 @@ impl<W: Workshop> Solver<W> {
                 if is_comparison { 1.0 - 1.0 / COMPARING } else { -1.0 }
             }
         };
-        let seconds = start.elapsed().as_secs_f64();
+        let seconds = self.clock.since(start).as_secs_f64();
         self.judge.earn(seconds);
         self.lead += weight * seconds;
     }
@@ -294,11 +297,11 @@ impl<W: Workshop> Solver<W> {
     }
 
     fn is_due(&self) -> bool {
-        self.published.elapsed() >= PUBLISH_INTERVAL
+        self.clock.since(self.published) >= PUBLISH_INTERVAL
     }
 
     fn publish(&mut self) {
-        self.published = Instant::now();
+        self.published = self.clock.now();
         self.snapshot.phase = self.phase();
         self.slot.publish(self.snapshot.clone());
     }

@@ -89,7 +89,7 @@ impl<W: Workshop> Solver<W> {
     /// Whether there is something new to be said of the picked point, in a view that shows it.
     pub(super) fn is_equation_due(&self) -> bool {
         let Picks { point, is_outdated, rests_until, .. } = &self.picks;
-        let is_resting = rests_until.is_some_and(|until| Instant::now() < until);
+        let is_resting = rests_until.is_some_and(|until| self.clock.now() < until);
         let waits = is_resting && self.radiosity.going.is_running();
         point.is_some() && *is_outdated && !waits && self.subject() == Subject::Radiosity
     }
@@ -97,7 +97,7 @@ impl<W: Workshop> Solver<W> {
     /// Says where the light at the picked point comes from; if interrupted, that is still to be done.
     pub(super) fn look_into_equation(&mut self) {
         self.at_work = Part::Picks;
-        let start = Instant::now();
+        let start = self.clock.now();
         let snapshot = &self.snapshot;
         let (Some(world), Some(solution), Some(picked)) = (&snapshot.world, &snapshot.solution, &snapshot.picked)
         else {
@@ -112,7 +112,7 @@ impl<W: Workshop> Solver<W> {
         let equation = light.equation(&Points { eye, point: place.point, source }, balance);
         self.snapshot.equation = Some(Arc::new(equation));
         self.picks.is_outdated = false;
-        self.picks.rests_until = Some(Instant::now() + EQUATION_INTERVAL.max(REST * start.elapsed()));
+        self.picks.rests_until = Some(self.clock.now() + EQUATION_INTERVAL.max(REST * self.clock.since(start)));
         self.publish();
     }
 

@@ -3,6 +3,7 @@
 
 use super::easel::{Amount, Next, Picture, Source};
 use super::{Light, Part, Solver};
+use crate::clock::Stopwatch;
 use crate::methods::{ImageSettings, Settings, Step};
 use crate::solution::{CameraImage, CameraView};
 use crate::worker::going::Going;
@@ -103,8 +104,9 @@ impl<W: Workshop> Solver<W> {
     }
 
     fn begin_picture(&mut self, shot: CameraShot, amount: Amount) {
+        let watch = Stopwatch::new(self.clock.clone());
         if let Some(image) = self.easel.moved_to(&shot, amount) {
-            return self.easel.begin(shot, image, amount);
+            return self.easel.begin(shot, image, amount, watch);
         }
         let settings = self.snapshot.settings;
         // How many samples it gets is decided from step to step.
@@ -112,7 +114,7 @@ impl<W: Workshop> Solver<W> {
         self.record_source(shot.view);
         let Some(lights) = lights(&self.snapshot, &mut self.photons, shot.view) else { return };
         let image = self.workshop.image(lights, &shot, &Settings { image, ..settings });
-        self.easel.begin(shot, image, amount);
+        self.easel.begin(shot, image, amount, watch);
     }
 
     fn go_on_with_picture(&mut self, shot: &CameraShot, amount: Amount) {

@@ -25,6 +25,9 @@ pub fn show(ui: &mut Ui, model: &Model) {
         meaning_of_defect: DEFECT,
     };
     balance.show(ui);
+    if let Some(warning) = photons.warning() {
+        ui.colored_label(ui.visuals().warn_fg_color, warning);
+    }
     counts(ui, &photons.counters);
     tables(ui, &photons.counters);
 }

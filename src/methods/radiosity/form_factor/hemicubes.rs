@@ -4,6 +4,7 @@ use super::gather::Sight;
 use super::hemicube::{Hemicube, Item};
 use super::polygon::Kernel;
 use super::{Outcome, Shot, clamped};
+use crate::cancel::Cancel;
 use crate::math::random::sobol2;
 use crate::mesh::{Element, Mesh, Patch};
 use crate::methods::Settings;
@@ -40,10 +41,14 @@ impl Hemicubes {
         }
     }
 
-    /// Fills `form_factors`, one an element, with F from each element to the shooter; near ones with `shadow_rays` each.
+    /// Fills `form_factors`, one an element, with F from each element to the shooter; near ones with `shadow_rays` each. If
+    /// cancelled, some have no value of use.
     pub fn look(&mut self, shot: &Shot, shadow_rays: u32, form_factors: &mut [f64]) -> Outcome {
         let (world, shooter) = (shot.world, shot.shooter());
         self.draw(world, shooter);
+        if shot.cancel.is_requested() {
+            return Outcome::default();
+        }
         self.seen.fill(0.0);
         let escaping = self.hemicube.add_form_factors(&mut self.seen);
         let near = Near::new(shot, shadow_rays);
@@ -99,6 +104,7 @@ fn exposed_middle(world: &World, patch: &Patch) -> Vec3A {
 /// The closed form for receivers that are too near for a point to stand for the shooter.
 struct Near<'a> {
     sight: Sight<'a>,
+    cancel: &'a Cancel,
     center: Vec3A,
     /// m
     reach: f32,
@@ -109,7 +115,8 @@ impl<'a> Near<'a> {
         let patch = shot.shooter();
         let from_center = |corner: &glam::Vec3| Vec3A::from(*corner).distance(patch.center);
         let radius = patch.corners().iter().map(from_center).fold(0.0, f32::max);
-        Self { sight: Sight::new(shot, Kernel::Polygon, shadow_rays), center: patch.center, reach: NEAR_RADII * radius }
+        let sight = Sight::new(shot, Kernel::Polygon, shadow_rays);
+        Self { sight, cancel: shot.cancel, center: patch.center, reach: NEAR_RADII * radius }
     }
 
     /// F from an element, and the work it took; `None` if it is far enough.
@@ -120,7 +127,8 @@ impl<'a> Near<'a> {
         }
         let patch = &mesh.patches[element.patch as usize];
         let mut work = Counters::default();
-        if !self.sight.may_reach(patch) {
+        // Rays take time, a look at the hemicube does not.
+        if self.cancel.is_requested() || !self.sight.may_reach(patch) {
             return Some((0.0, work));
         }
         work.near_field = 1;
