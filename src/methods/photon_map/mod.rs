@@ -10,7 +10,6 @@
 
 mod batch;
 mod border;
-mod box_tree;
 mod density;
 mod facet;
 mod ground;

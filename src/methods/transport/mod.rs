@@ -2,6 +2,7 @@
 //! camera, which go against it.
 
 mod bsdf;
+mod emitter;
 mod emitters;
 mod filter;
 mod fresnel;
@@ -10,7 +11,7 @@ mod phong;
 mod surface;
 
 pub use bsdf::{Bsdf, Sample};
-pub use emitters::{Arrival, Emission, Emitters, LampPoint};
+pub use emitters::{Emission, EmitterSample, Emitters};
 pub use filter::colour;
 pub use fresnel::{fresnel_reflectance, reflect, refract};
 pub use media::Media;

@@ -1,0 +1,142 @@
+//! One emitter: a polygon that shines from its front, and points of it by area, or by solid angle where it is near.
+
+use super::Media;
+use crate::math::rgb::{Rgb, Rgb64};
+use crate::math::spherical_triangle::SphericalTriangle;
+use crate::mesh::{Region, Sampler};
+use glam::{DVec3, Vec2, Vec3A};
+use std::f64::consts::PI;
+
+/// A place is near that is less than so many radii away from the middle: over what is farther away the squared distance varies
+/// by less than a factor of 4, and points by area are as good and cheaper.
+const NEAR_RADII: f32 = 3.0;
+/// Shadow rays keep this share of an emitter away from its edges, where a lifted point may lie in the plane of the next surface.
+const INSET: f64 = 1.0 / 8192.0;
+
+/// A triangle, or a quad cut in two: a quad need not be a parallelogram, on which alone a bilinear map is uniform.
+pub(super) struct Emitter {
+    corners: [Vec3A; 4],
+    triangle_count: usize,
+    /// Off the surface.
+    points: [Sampler; 2],
+    /// Of the area, that of the first triangle.
+    first_share: f32,
+    center: Vec3A,
+    /// m²
+    squared_near_distance: f32,
+    /// How far a point is lifted off the surface.
+    lift: Vec3A,
+    /// Unit normal of the front.
+    pub normal: Vec3A,
+    pub polygon: u32,
+    pub media: Media,
+    /// W/(m²·sr)
+    pub radiance: Rgb,
+    /// m²
+    pub area: f64,
+    /// Probability that it is chosen.
+    pub probability: f64,
+}
+
+/// How an emitter fills the directions of a place that is near it.
+pub(super) struct NearView<'a> {
+    emitter: &'a Emitter,
+    triangles: [SphericalTriangle; 2],
+    /// sr
+    pub solid_angle: f64,
+}
+
+impl Emitter {
+    /// `corners` are the three or four of a polygon; points of it are moved by `lift`.
+    pub fn new(polygon: u32, corners: &[Vec3A], normal: Vec3A, radiance: Rgb, lift: Vec3A) -> Self {
+        let triangle_count = corners.len() - 2;
+        let corners = [0, 1, 2, 3].map(|i: usize| corners[i.min(corners.len() - 1)]);
+        let triangle = |i: usize| [corners[0], corners[i + 1], corners[i + 2]];
+        let areas = [0, 1].map(|i| {
+            let [a, b, c] = triangle(i).map(|corner| corner.as_dvec3());
+            0.5 * (b - a).cross(c - a).length()
+        });
+        let sampler = |i: usize| {
+            let [a, b, c] = triangle(i);
+            Region::new([a, b, c, c], 3).sampler(lift)
+        };
+        let low = corners.into_iter().fold(corners[0], Vec3A::min);
+        let high = corners.into_iter().fold(corners[0], Vec3A::max);
+        let area = areas[0] + areas[1];
+        Self {
+            corners,
+            triangle_count,
+            points: [sampler(0), sampler(triangle_count - 1)],
+            first_share: if area > 0.0 { (areas[0] / area) as f32 } else { 1.0 },
+            center: 0.5 * (low + high),
+            squared_near_distance: 0.25 * NEAR_RADII * NEAR_RADII * (high - low).length_squared(),
+            lift,
+            normal,
+            polygon,
+            media: Media::default(),
+            radiance,
+            area,
+            probability: 0.0,
+        }
+    }
+
+    pub fn corners(&self) -> &[Vec3A] {
+        &self.corners[..self.triangle_count + 2]
+    }
+
+    /// π L A, W.
+    pub fn flux(&self) -> Rgb64 {
+        self.radiance.as_dvec3() * (PI * self.area)
+    }
+
+    /// A point in proportion to area, off the surface. `which` in [0, 1) chooses the triangle.
+    pub fn point(&self, which: f32, at: Vec2) -> Vec3A {
+        self.points[usize::from(which >= self.first_share)].point(at)
+    }
+
+    /// The density of the direction towards a point that is chosen with this emitter in proportion to area, 1/sr; `None` where
+    /// the direction meets the back.
+    pub fn pdf_by_area(&self, direction: Vec3A, distance: f32) -> Option<f32> {
+        let cosine = -direction.dot(self.normal);
+        let density = (self.probability / self.area) as f32;
+        (cosine > 0.0).then(|| density * distance * distance / cosine)
+    }
+
+    /// How it is seen from a place, if that is near. The solid angle is 0 where the place is behind it, or in front of it by no
+    /// more than `rounding`, m.
+    pub fn seen_from(&self, place: Vec3A, rounding: f64) -> Option<NearView<'_>> {
+        if place.distance_squared(self.center) >= self.squared_near_distance {
+            return None;
+        }
+        // Differences of numbers of single precision are exact in double precision.
+        let place = place.as_dvec3();
+        let [a, b, c, d] = self.corners.map(|corner| corner.as_dvec3() - place);
+        let triangles = [[a, b, c], [a, c, d]].map(SphericalTriangle::new);
+        let height = -a.dot((c - a).cross(d - b).normalize_or_zero());
+        let solid_angle = if height > rounding { triangles[0].solid_angle() + triangles[1].solid_angle() } else { 0.0 };
+        Some(NearView { emitter: self, triangles, solid_angle })
+    }
+}
+
+impl NearView<'_> {
+    /// A unit direction that is uniform over the solid angle, and the point of the emitter there, off its surface. `which` in
+    /// [0, 1) chooses the triangle.
+    pub fn sample(&self, place: Vec3A, which: f32, at: Vec2) -> (Vec3A, Vec3A) {
+        let is_second = f64::from(which) * self.solid_angle >= self.triangles[0].solid_angle();
+        let index = usize::from(is_second && self.triangles[1].solid_angle() > 0.0);
+        let direction = self.triangles[index].direction(at.as_dvec2());
+        let corners = [0, index + 1, index + 2].map(|i| self.emitter.corners[i].as_dvec3() - place.as_dvec3());
+        let point =
+            corners.iter().zip(weights(corners, direction)).map(|(corner, weight)| *corner * weight).sum::<DVec3>();
+        (direction.as_vec3a(), (place.as_dvec3() + point).as_vec3a() + self.emitter.lift)
+    }
+}
+
+/// The barycentric weights of the point of a triangle in a direction, kept off its edges.
+fn weights([a, b, c]: [DVec3; 3], direction: DVec3) -> [f64; 3] {
+    let volumes = [direction.dot(c.cross(b)), direction.dot(a.cross(c)), direction.dot(b.cross(a))];
+    let sum: f64 = volumes.iter().sum();
+    let kept = volumes.map(|volume| (volume / sum).max(INSET));
+    let sum: f64 = kept.iter().sum();
+    kept.map(|weight| weight / sum)
+}
