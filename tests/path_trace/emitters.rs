@@ -28,6 +28,12 @@ fn over_a_floor(emitters: &[(&str, &[Vec3])]) -> Arc<Transport> {
     scene(&obj, MTL)
 }
 
+/// As the scene was mended.
+fn corners_of(transport: &Transport, polygon: usize) -> Vec<DVec3> {
+    let scene = &transport.world.scene;
+    scene.polygons[polygon].corners().iter().map(|&corner| scene.positions[corner as usize].as_dvec3()).collect()
+}
+
 fn floor_at(transport: &Transport, x: f32, z: f32) -> Surface {
     transport.surface_on(0, true, Vec3A::new(x, 0.0, z))
 }
@@ -57,7 +63,7 @@ fn samples_of_one_emitter_are_its_form_factor_and_bounded_however_near_it_is() {
         for (name, corners) in shapes {
             let transport = over_a_floor(&[("lamp", &corners)]);
             let place = floor_at(&transport, 0.0, 0.0);
-            let precise: Vec<DVec3> = corners.iter().map(|corner| corner.as_dvec3()).collect();
+            let precise = corners_of(&transport, 1);
             let expected = PI * form_factor(DVec3::ZERO, DVec3::Y, &precise);
             let mut stream = Stream::new(1, 2, 3);
             let (mut found, mut largest) = (Moments::default(), 0.0_f64);
@@ -112,12 +118,10 @@ fn only_places_before_an_emitter_and_closer_than_its_size_are_near_it() {
     assert!(is_near(0.0, 0.0) && is_near(0.1, 0.1) && !is_near(0.12, 0.0));
     let above = over_a_floor(&[("lamp", &ceiling(0.05, 0.06))]);
     assert!(!above.emitters().are_near(&floor_at(&above, 0.0, 0.0)));
-    // Behind it, and below the horizon of a place that looks the other way.
-    let behind: Vec<Vec3> = ceiling(0.05, 0.05).into_iter().rev().collect();
-    let behind = over_a_floor(&[("lamp", &behind)]);
-    assert!(!behind.emitters().are_near(&floor_at(&behind, 0.0, 0.0)));
-    let back = transport.surface_on(0, false, Vec3A::ZERO);
-    assert!(!transport.emitters().are_near(&back));
+    // Behind it, and where it is below the horizon.
+    let behind = Surface { point: Vec3A::new(0.0, 0.06, 0.0), facing: Vec3A::NEG_Y, ..floor_at(&transport, 0.0, 0.0) };
+    assert!(!transport.emitters().are_near(&behind));
+    assert!(!transport.emitters().are_near(&transport.surface_on(0, false, Vec3A::ZERO)));
     // A small lamp that is seldom chosen beside a strong one is near as far as it outshines what its choice would find.
     let pair = over_a_floor(&[("lamp", &ceiling(0.05, 0.06)), ("bright", &ceiling(0.05, 1.0))]);
     assert!(pair.emitters().are_near(&floor_at(&pair, 0.0, 0.0)));

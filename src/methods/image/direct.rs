@@ -48,9 +48,7 @@ impl Receiver<'_> {
     /// Radiance that the diffuse lobe sends on of direct light, W/(m²·sr), by `count` points of emitters, and where emitters
     /// are near by as many cosine-distributed rays.
     pub fn sample_direct(&self, count: u32, tools: &mut Tools<'_>) -> Rgb {
-        // Rays that may meet emitters always see what stands in the way: of no use where shadows are left out.
-        let has_shadows = self.transport.effects.contains(Effect::Shadows);
-        let is_near = has_shadows && self.transport.emitters().are_near(self.surface);
+        let is_near = !self.transport.ignores_occluders && self.transport.emitters().are_near(self.surface);
         let samples = Samples { light: count, cosine: if is_near { count } else { 0 } };
         let by_points = self.sample_emitters(samples, tools);
         if is_near { by_points + self.sample_cosine(samples, tools) } else { by_points }

@@ -1,7 +1,6 @@
 //! The way of a ray from the eye over specular surfaces, to wherever light is known (Whitted 1980; Kajiya 1986).
 
 use super::draws::{Draws, Use};
-use crate::effects::Effect;
 use crate::math::rgb::Rgb;
 use crate::methods::cost::Cost;
 use crate::methods::mis::power_heuristic;
@@ -151,12 +150,12 @@ impl EyePath {
 
     /// The weight of an emitter that a ray met: less than 1 where the glossy lobe that it left had a sample of the emitters.
     fn weight_of_met(&self, leg: &Leg, met: &Surface) -> f32 {
-        let Some(gloss) = &leg.gloss else { return 1.0 };
-        if self.transport.effects.contains(Effect::Shadows) {
-            power_heuristic(gloss.pdf, self.transport.emitters().pdf(&gloss.surface, met, leg.ray.direction))
-        } else {
-            // It sees what stands in the way, which is not to be seen.
-            0.0
+        match &leg.gloss {
+            None => 1.0,
+            Some(_) if self.transport.ignores_occluders => 0.0,
+            Some(gloss) => {
+                power_heuristic(gloss.pdf, self.transport.emitters().pdf(&gloss.surface, met, leg.ray.direction))
+            }
         }
     }
 
@@ -171,8 +170,7 @@ impl EyePath {
             return Rgb::ZERO;
         }
         let [_, other] = lobe.densities(sample.direction, leg.throughput);
-        let has_shadows = self.transport.effects.contains(Effect::Shadows);
-        let weight = if has_shadows { power_heuristic(sample.pdf, other) } else { 1.0 };
+        let weight = if self.transport.ignores_occluders { 1.0 } else { power_heuristic(sample.pdf, other) };
         weight * glossy * sample.radiance
     }
 

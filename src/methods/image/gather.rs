@@ -6,7 +6,7 @@ use super::draws::Use;
 use super::eye_path::{DiffuseLight, Seen, Tools};
 use super::lights::direct_light;
 use super::photon_light::PhotonLight;
-use crate::effects::{Effect, Effects};
+use crate::effects::Effect;
 use crate::math::random::Stream;
 use crate::math::rgb::Rgb;
 use crate::math::warp::{cosine_hemisphere, frame};
@@ -87,10 +87,9 @@ impl GatherLight {
         0
     }
 
-    /// How direct light is sampled where gathering rays, which are cosine-distributed anyway, share in it. They always see what
-    /// stands in the way: of no use where shadows are left out.
+    /// How direct light is sampled where gathering rays, which are cosine-distributed anyway, share in it.
     fn shared_direct(&self, seen: &Seen<'_>, count: u32) -> Option<Samples> {
-        let is_simulated = Effects::of(&[Effect::DirectLight, Effect::Shadows]).but(self.transport.effects).is_empty();
+        let is_simulated = self.transport.effects.contains(Effect::DirectLight) && !self.transport.ignores_occluders;
         let is_shared = count > 0 && is_simulated && self.shows_direct(seen);
         is_shared.then(|| Samples { light: seen.light_rays(self.light_rays), cosine: count })
     }
@@ -176,13 +175,13 @@ impl GatherLight {
 
     /// Radiance that a place near by sends: its own direct light, the photons of caustics, and one gathering ray further.
     fn leaving_near(&self, surface: &Surface, bsdf: &Bsdf, to_eye: Path, media: Media, tools: &mut Tools<'_>) -> Rgb {
-        let has_shadows = self.transport.effects.contains(Effect::Shadows);
-        let samples = Samples { light: 1, cosine: u32::from(has_shadows) };
+        let meets_emitters = !self.transport.ignores_occluders;
+        let samples = Samples { light: 1, cosine: u32::from(meets_emitters) };
         let direct = self.receiver(surface, bsdf, false).sample_emitters(samples, tools);
         let caustic = self.arrivals.caustic_irradiance(surface);
         let direction = frame(surface.normal) * cosine_hemisphere(tools.draws.stream.uniform2());
         let gathered = if direction.dot(surface.facing) > 0.0 {
-            let direct = has_shadows.then_some(samples);
+            let direct = meets_emitters.then_some(samples);
             let ray = GatherRay { from: surface, direction, media, to_eye, refines: false, direct };
             self.arriving(&ray, tools)
         } else {

@@ -40,9 +40,6 @@ pub struct PathTracer {
     purpose: Option<Effect>,
     /// Whether every path counts.
     counts_all: bool,
-    /// Whether rays that go on by chance may find emitters. They always see what stands in the way, so that they are of no
-    /// use where shadows are left out.
-    meets_emitters: bool,
 }
 
 /// A place on a path, and what it sends on to where the path came from.
@@ -76,7 +73,6 @@ impl PathTracer {
             counts_all: matcher.passes_all() && Effects::of(&purposes).but(counted).is_empty(),
             spreads: transport.effects.contains(Effect::Interreflection),
             purpose: purposes.into_iter().find(|&effect| transport.effects.contains(effect)),
-            meets_emitters: counted.contains(Effect::Shadows),
             matcher,
             counted,
             transport,
@@ -161,10 +157,10 @@ impl PathTracer {
         if sample.is_sharp {
             // No ray to an emitter finds this way.
             1.0
-        } else if self.meets_emitters {
-            power_heuristic(sample.density, other)
-        } else {
+        } else if self.transport.ignores_occluders {
             0.0
+        } else {
+            power_heuristic(sample.density, other)
         }
     }
 
@@ -177,7 +173,7 @@ impl PathTracer {
         let mut value = Rgb::ZERO;
         for ((of_lobe, density), scattering) in values.into_iter().zip(densities).zip(Scattering::ALL) {
             if of_lobe != Rgb::ZERO && self.counts(vertex.to_eye.then(scattering)) {
-                let weight = if self.meets_emitters { power_heuristic(sample.pdf, density) } else { 1.0 };
+                let weight = if self.transport.ignores_occluders { 1.0 } else { power_heuristic(sample.pdf, density) };
                 value += weight * of_lobe;
             }
         }
