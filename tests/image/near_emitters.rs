@@ -1,7 +1,7 @@
 //! Direct light near large emitters, by every view that samples it, against closed forms.
 
-use super::{finished, home, scene, sources, with_photons};
-use glam::{DVec3, Vec2, Vec3A};
+use super::{camera, finished, scene, sources, with_photons};
+use glam::{DVec3, Vec2, Vec3, Vec3A};
 use lightwell::cancel::Cancel;
 use lightwell::math::polygon::form_factor;
 use lightwell::math::random::sobol2;
@@ -32,15 +32,16 @@ fn attic(slope: f64) -> Arc<World> {
     scene(&(obj + "f 1 2 4 3\nf 1 5 6 2\nf 3 4 6 5\nf 1 3 5\nf 2 6 4\n"), GLOW)
 }
 
-/// A glowing panel of 1 m, 1 cm before the middle of a black wall of 2 m. Its back does not emit.
+/// A glowing panel of 1 m, 1 cm before the middle of a wall of 2 m. Its back does not emit.
 const PANEL: &str = "\
 mtllib m.mtl
-usemtl black
+usemtl wall
 v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4
 usemtl glow
 v -0.5 -0.5 0.01\nv -0.5 0.5 0.01\nv 0.5 0.5 0.01\nv 0.5 -0.5 0.01\nf 5 6 7 8
 ";
-const PANEL_MTL: &str = "newmtl black\nKd 0 0 0\nnewmtl glow\nKd 0 0 0\nKe .318309886184 .318309886184 .318309886184\n";
+const PANEL_MTL: &str =
+    "newmtl wall\nKd .5 .5 .5\nnewmtl glow\nKd .5 .5 .5\nKe .318309886184 .318309886184 .318309886184\n";
 
 fn panel_irradiance(point: Vec3A) -> f64 {
     let corners = [(-0.5, -0.5), (-0.5, 0.5), (0.5, 0.5), (0.5, -0.5)].map(|(x, y)| DVec3::new(x, y, 0.01));
@@ -191,15 +192,14 @@ v -0.05 1 -0.05\nv 0.05 1 -0.05\nv 0.05 1 0.05\nv -0.05 1 0.05\nf 5 6 7 8
     let mtl = "newmtl gloss\nKd 0.2 0.2 0.2\nKs 0.5 0.5 0.5\nNs 60\nnewmtl lamp\nKd 0 0 0\nKe 9 9 9\n";
     let world = scene(obj, mtl);
     let sources = sources(&world);
-    let camera = home(&world);
+    let camera = camera(&world, Vec3::new(0.0, 0.6, 1.5), Vec3::new(0.0, 0.4, 0.0), Vec3::Y, 60.0);
     let picture = |view, filter: &str, samples, seed| {
         let settings = Settings { seed, ..settings(samples, filter) };
         finished(&sources, view, camera, [32, 32], &settings).radiance
     };
     for filter in ["", "LSE", "LDE", "LE"] {
         let truth = picture(CameraView::Reference, filter, 256, 0);
-        let mean =
-            |pixels: &[glam::Vec3]| pixels.iter().map(|pixel| f64::from(pixel.x)).sum::<f64>() / pixels.len() as f64;
+        let mean = |pixels: &[Vec3]| pixels.iter().map(|pixel| f64::from(pixel.x)).sum::<f64>() / pixels.len() as f64;
         // Independent pictures, whose spread tells the error of their mean.
         let (mut means, mut squares) = (Moments::default(), Moments::default());
         for seed in 1..=16 {

@@ -10,7 +10,8 @@ use std::f64::consts::PI;
 use std::fmt::Write;
 use std::sync::Arc;
 
-const MTL: &str = "newmtl black\nKd 0 0 0\nnewmtl lamp\nKd 0 0 0\nKe 1 1 1\nnewmtl bright\nKd 0 0 0\nKe 20 20 20\n";
+const MTL: &str =
+    "newmtl black\nKd 0 0 0\nnewmtl lamp\nKd 0 0 0\nKe 1 1 1\nnewmtl bright\nKd 0 0 0\nKe 1000 1000 1000\n";
 
 /// A floor of 2 m with these polygons above it, in the order of the scene.
 fn over_a_floor(emitters: &[(&str, &[Vec3])]) -> Arc<Transport> {
@@ -50,7 +51,7 @@ fn ceiling(half: f32, y: f32) -> [Vec3; 4] {
 
 #[test]
 fn samples_of_one_emitter_are_its_form_factor_and_bounded_however_near_it_is() {
-    let sliver = |y: f32| [Vec3::new(-0.5, y, 0.0), Vec3::new(0.5, y, 1e-5), Vec3::new(0.5, y, 0.0)];
+    let sliver = |y: f32| [Vec3::new(-0.5, y, 0.0), Vec3::new(0.5, y, 0.0), Vec3::new(0.5, y, 1e-5)];
     let quad = |y: f32| [(-0.5, -0.4), (0.4, -0.5), (0.6, 0.5), (-0.1, 0.3)].map(|(x, z)| Vec3::new(x, y, z));
     for height in [2.0, 0.5, 0.1, 1e-2, 1e-3, 1e-4, 1e-5, 2e-6] {
         let shapes: [(&str, Vec<Vec3>); 5] = [

@@ -26,6 +26,8 @@ pub(super) struct Emitter {
     squared_near_distance: f32,
     /// How far a point is lifted off the surface.
     lift: Vec3A,
+    /// The unit normal in double precision, for places next to the plane.
+    precise_normal: DVec3,
     /// Unit normal of the front.
     pub normal: Vec3A,
     pub polygon: u32,
@@ -34,8 +36,11 @@ pub(super) struct Emitter {
     pub radiance: Rgb,
     /// m²
     pub area: f64,
-    /// Probability that it is chosen.
-    pub probability: f64,
+    /// Probability that it is chosen, and the least of the numbers in [0, 1) that choose it.
+    probability: f64,
+    first_choice: f64,
+    /// Of points by area, 1/m².
+    density: f32,
 }
 
 /// How an emitter fills the directions of a place that is near it.
@@ -43,7 +48,7 @@ pub(super) struct NearView<'a> {
     emitter: &'a Emitter,
     triangles: [SphericalTriangle; 2],
     /// sr
-    pub solid_angle: f64,
+    solid_angle: f64,
 }
 
 impl Emitter {
@@ -63,6 +68,8 @@ impl Emitter {
         let low = corners.into_iter().fold(corners[0], Vec3A::min);
         let high = corners.into_iter().fold(corners[0], Vec3A::max);
         let area = areas[0] + areas[1];
+        let [a, b, c, d] = corners.map(|corner| corner.as_dvec3());
+        let precise_normal = (c - a).cross(d - b).normalize_or_zero();
         Self {
             corners,
             triangle_count,
@@ -71,13 +78,32 @@ impl Emitter {
             center: 0.5 * (low + high),
             squared_near_distance: 0.25 * NEAR_RADII * NEAR_RADII * (high - low).length_squared(),
             lift,
+            precise_normal,
             normal,
             polygon,
             media: Media::default(),
             radiance,
             area,
             probability: 0.0,
+            first_choice: 0.0,
+            density: 0.0,
         }
+    }
+
+    /// Lets numbers from `first_choice` on choose it with this probability.
+    pub fn set_probability(&mut self, probability: f64, first_choice: f64) {
+        self.probability = probability;
+        self.first_choice = first_choice;
+        self.density = (probability / self.area) as f32;
+    }
+
+    pub fn probability(&self) -> f64 {
+        self.probability
+    }
+
+    /// What is left of a number that chose it, in [0, 1).
+    pub fn rest_of(&self, choice: f64) -> f32 {
+        (((choice - self.first_choice) / self.probability) as f32).clamp(0.0, 1.0 - f32::EPSILON)
     }
 
     pub fn corners(&self) -> &[Vec3A] {
@@ -98,27 +124,34 @@ impl Emitter {
     /// the direction meets the back.
     pub fn pdf_by_area(&self, direction: Vec3A, distance: f32) -> Option<f32> {
         let cosine = -direction.dot(self.normal);
-        let density = (self.probability / self.area) as f32;
-        (cosine > 0.0).then(|| density * distance * distance / cosine)
+        (cosine > 0.0).then(|| self.density * distance * distance / cosine)
     }
 
-    /// How it is seen from a place, if that is near. The solid angle is 0 where the place is behind it, or in front of it by no
-    /// more than `rounding`, m.
-    pub fn seen_from(&self, place: Vec3A, rounding: f64) -> Option<NearView<'_>> {
-        if place.distance_squared(self.center) >= self.squared_near_distance {
-            return None;
-        }
+    pub fn is_near(&self, place: Vec3A) -> bool {
+        place.distance_squared(self.center) < self.squared_near_distance
+    }
+
+    /// How it is seen from a place that is near; `None` from behind, and from its own plane, which is as thick as `rounding`, m.
+    #[inline(never)]
+    pub fn near_view(&self, place: Vec3A, rounding: f64) -> Option<NearView<'_>> {
         // Differences of numbers of single precision are exact in double precision.
         let place = place.as_dvec3();
+        if (place - self.corners[0].as_dvec3()).dot(self.precise_normal) <= rounding {
+            return None;
+        }
         let [a, b, c, d] = self.corners.map(|corner| corner.as_dvec3() - place);
         let triangles = [[a, b, c], [a, c, d]].map(SphericalTriangle::new);
-        let height = -a.dot((c - a).cross(d - b).normalize_or_zero());
-        let solid_angle = if height > rounding { triangles[0].solid_angle() + triangles[1].solid_angle() } else { 0.0 };
-        Some(NearView { emitter: self, triangles, solid_angle })
+        let solid_angle = triangles[0].solid_angle() + triangles[1].solid_angle();
+        (solid_angle > 0.0).then_some(NearView { emitter: self, triangles, solid_angle })
     }
 }
 
 impl NearView<'_> {
+    /// The density of every direction, with which this emitter is chosen too, 1/sr.
+    pub fn pdf(&self) -> f32 {
+        (self.emitter.probability / self.solid_angle) as f32
+    }
+
     /// A unit direction that is uniform over the solid angle, and the point of the emitter there, off its surface. `which` in
     /// [0, 1) chooses the triangle.
     pub fn sample(&self, place: Vec3A, which: f32, at: Vec2) -> (Vec3A, Vec3A) {

@@ -77,8 +77,9 @@ impl Emitters {
         let mut sum = 0.0;
         let mut cumulative = Vec::with_capacity(emitters.len());
         for emitter in &mut emitters {
-            emitter.probability = total(emitter.flux()) / total(flux);
-            sum += emitter.probability;
+            let probability = total(emitter.flux()) / total(flux);
+            emitter.set_probability(probability, sum);
+            sum += probability;
             cumulative.push(sum);
         }
         let reach = BoxTree::new(emitters.iter().map(|emitter| reach(emitter, flux)).collect());
@@ -111,7 +112,7 @@ impl Emitters {
         let (emitter, which) = self.choose(f64::from(sobol2(place, 2, sequence).x))?;
         let direction = frame(emitter.normal) * cosine_hemisphere(sobol2(place, 1, sequence));
         let origin = emitter.point(which, sobol2(place, 0, sequence));
-        let flux = emitter.flux() / (emitter.probability * count as f64);
+        let flux = emitter.flux() / (emitter.probability() * count as f64);
         Some(Emission { ray: Ray { origin, direction }, flux: flux.as_vec3(), media: emitter.media })
     }
 
@@ -123,19 +124,16 @@ impl Emitters {
         if emitter.polygon == surface.polygon {
             return None;
         }
-        let (direction, point, pdf) = match emitter.seen_from(surface.point, self.rounding) {
-            Some(view) if view.solid_angle > 0.0 => {
-                let (direction, point) = view.sample(surface.point, which, at);
-                (direction, point, (emitter.probability / view.solid_angle) as f32)
-            }
-            Some(_) => return None,
-            None => {
-                let point = emitter.point(which, at);
-                let way = point - surface.point;
-                let distance = way.length();
-                let direction = way / distance;
-                (direction, point, emitter.pdf_by_area(direction, distance)?)
-            }
+        let (direction, point, pdf) = if emitter.is_near(surface.point) {
+            let view = emitter.near_view(surface.point, self.rounding)?;
+            let (direction, point) = view.sample(surface.point, which, at);
+            (direction, point, view.pdf())
+        } else {
+            let point = emitter.point(which, at);
+            let way = point - surface.point;
+            let distance = way.length();
+            let direction = way / distance;
+            (direction, point, emitter.pdf_by_area(direction, distance)?)
         };
         Some(EmitterSample { point, direction, radiance: emitter.radiance / pdf, pdf })
     }
@@ -144,11 +142,12 @@ impl Emitters {
     /// emitter.
     pub fn pdf(&self, surface: &Surface, met: &Surface, direction: Vec3A) -> f32 {
         let Some(emitter) = self.emitters.get(self.of_polygon[met.polygon as usize] as usize) else { return 0.0 };
-        match emitter.seen_from(surface.point, self.rounding) {
-            Some(view) if view.solid_angle > 0.0 => (emitter.probability / view.solid_angle) as f32,
-            Some(_) => 0.0,
-            None => emitter.pdf_by_area(direction, met.distance).unwrap_or(0.0),
-        }
+        let pdf = if emitter.is_near(surface.point) {
+            emitter.near_view(surface.point, self.rounding).map(|view| view.pdf())
+        } else {
+            emitter.pdf_by_area(direction, met.distance)
+        };
+        pdf.unwrap_or(0.0)
     }
 
     /// Whether cosine-distributed directions from a place may meet an emitter more often than [`Emitters::sample`] chooses it,
@@ -169,9 +168,7 @@ impl Emitters {
         let last = self.emitters.len().checked_sub(1)?;
         let index = self.cumulative.partition_point(|&share| share <= choice).min(last);
         let emitter = &self.emitters[index];
-        let start = self.cumulative[index] - emitter.probability;
-        let rest = ((choice - start) / emitter.probability) as f32;
-        Some((emitter, rest.clamp(0.0, 1.0 - f32::EPSILON)))
+        Some((emitter, emitter.rest_of(choice)))
     }
 }
 
