@@ -44,7 +44,7 @@ pub(super) struct Emitter {
 }
 
 /// How an emitter fills the directions of a place that is near it.
-pub(super) struct NearView<'a> {
+struct NearView<'a> {
     emitter: &'a Emitter,
     triangles: [SphericalTriangle; 2],
     /// sr
@@ -131,9 +131,23 @@ impl Emitter {
         place.distance_squared(self.center) < self.squared_near_distance
     }
 
-    /// How it is seen from a place that is near; `None` from behind, and from its own plane, which is as thick as `rounding`, m.
+    /// For a place that is near: a unit direction that is uniform over the solid angle, the point there, off the surface, and the
+    /// density, 1/sr. `which` in [0, 1) chooses the triangle. `None` from behind, and from its own plane, which is as thick as
+    /// `rounding`, m. Few places are near, and all others should not carry the code of these along.
     #[inline(never)]
-    pub fn near_view(&self, place: Vec3A, rounding: f64) -> Option<NearView<'_>> {
+    pub fn sample_near(&self, place: Vec3A, rounding: f64, which: f32, at: Vec2) -> Option<(Vec3A, Vec3A, f32)> {
+        let view = self.near_view(place, rounding)?;
+        let (direction, point) = view.sample(place, which, at);
+        Some((direction, point, view.pdf()))
+    }
+
+    /// The density of that choice, 1/sr.
+    #[inline(never)]
+    pub fn pdf_near(&self, place: Vec3A, rounding: f64) -> Option<f32> {
+        Some(self.near_view(place, rounding)?.pdf())
+    }
+
+    fn near_view(&self, place: Vec3A, rounding: f64) -> Option<NearView<'_>> {
         // Differences of numbers of single precision are exact in double precision.
         let place = place.as_dvec3();
         if (place - self.corners[0].as_dvec3()).dot(self.precise_normal) <= rounding {
@@ -148,13 +162,12 @@ impl Emitter {
 
 impl NearView<'_> {
     /// The density of every direction, with which this emitter is chosen too, 1/sr.
-    pub fn pdf(&self) -> f32 {
+    fn pdf(&self) -> f32 {
         (self.emitter.probability / self.solid_angle) as f32
     }
 
-    /// A unit direction that is uniform over the solid angle, and the point of the emitter there, off its surface. `which` in
-    /// [0, 1) chooses the triangle.
-    pub fn sample(&self, place: Vec3A, which: f32, at: Vec2) -> (Vec3A, Vec3A) {
+    /// A direction, and the point of the emitter there.
+    fn sample(&self, place: Vec3A, which: f32, at: Vec2) -> (Vec3A, Vec3A) {
         let is_second = f64::from(which) * self.solid_angle >= self.triangles[0].solid_angle();
         let index = usize::from(is_second && self.triangles[1].solid_angle() > 0.0);
         let direction = self.triangles[index].direction(at.as_dvec2());

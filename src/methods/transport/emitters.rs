@@ -119,15 +119,14 @@ impl Emitters {
     /// A direction from a place to an emitter, for numbers in [0, 1): emitters in proportion to their flux, then directions by
     /// solid angle where the emitter is near, and else by area. `None` where the place is behind the emitter or on it, and
     /// where nothing emits.
+    #[inline]
     pub fn sample(&self, surface: &Surface, choice: f32, at: Vec2) -> Option<EmitterSample> {
         let (emitter, which) = self.choose(f64::from(choice))?;
         if emitter.polygon == surface.polygon {
             return None;
         }
         let (direction, point, pdf) = if emitter.is_near(surface.point) {
-            let view = emitter.near_view(surface.point, self.rounding)?;
-            let (direction, point) = view.sample(surface.point, which, at);
-            (direction, point, view.pdf())
+            emitter.sample_near(surface.point, self.rounding, which, at)?
         } else {
             let point = emitter.point(which, at);
             let way = point - surface.point;
@@ -143,7 +142,7 @@ impl Emitters {
     pub fn pdf(&self, surface: &Surface, met: &Surface, direction: Vec3A) -> f32 {
         let Some(emitter) = self.emitters.get(self.of_polygon[met.polygon as usize] as usize) else { return 0.0 };
         let pdf = if emitter.is_near(surface.point) {
-            emitter.near_view(surface.point, self.rounding).map(|view| view.pdf())
+            emitter.pdf_near(surface.point, self.rounding)
         } else {
             emitter.pdf_by_area(direction, met.distance)
         };
