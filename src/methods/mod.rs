@@ -3,6 +3,7 @@
 pub mod ambient_occlusion;
 mod cost;
 pub mod image;
+mod mis;
 pub mod path_trace;
 pub mod photon_map;
 pub mod radiosity;

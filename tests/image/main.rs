@@ -4,6 +4,7 @@ mod agreement;
 mod contrast;
 mod errors;
 mod film;
+mod near_emitters;
 mod noise;
 mod rays;
 mod spheres;

@@ -1,6 +1,5 @@
 //! The truth by brute force: the radiance along rays from the eye by plain path tracing.
 
-use glam::Vec3A;
 use lightwell::camera::Camera;
 use lightwell::math::random::Stream;
 use lightwell::math::rgb::Rgb;
@@ -80,12 +79,7 @@ fn radiance(transport: &Transport, mut ray: Ray, stream: &mut Stream) -> Rgb {
 }
 
 fn direct(transport: &Transport, surface: &Surface, bsdf: &Bsdf, stream: &mut Stream) -> Rgb {
-    let lamp = transport.emitters().point(stream.uniform(), stream.uniform2()).expect("a lamp");
-    let way: Vec3A = lamp.point - surface.point;
-    let (square, direction) = (way.length_squared(), way.normalize());
-    let cosine = -direction.dot(lamp.normal);
-    if cosine <= 0.0 || lamp.polygon == surface.polygon || !transport.sees(surface, lamp.surface_point()) {
-        return Rgb::ZERO;
-    }
-    lamp.radiance * bsdf.value(direction)[0] * cosine / (square * lamp.density)
+    let sample = transport.emitters().sample(surface, stream.uniform(), stream.uniform2());
+    let seen = sample.filter(|sample| transport.sees(surface, sample.point));
+    seen.map_or(Rgb::ZERO, |sample| sample.radiance * bsdf.value(sample.direction)[0])
 }

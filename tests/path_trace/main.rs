@@ -2,6 +2,7 @@
 
 mod agreement;
 mod closed_forms;
+mod emitters;
 mod materials;
 #[path = "../common/oracle.rs"]
 mod oracle;

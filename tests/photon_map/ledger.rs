@@ -134,7 +134,7 @@ fn a_trail_leads_to_the_places_where_its_photon_landed() {
 /// A photon meets a thousand surfaces on average, and 0.999^16384 = 8e-8 of the flux meet more than are followed.
 #[test]
 fn a_room_that_reflects_nearly_all_keeps_its_flux() {
-    let transport = super::transport(furnace(0.999));
+    let transport = transport(furnace(0.999));
     let photons = PhotonSettings { count: 2000, ..PhotonSettings::default() };
     let solution = run_to_end(&transport, photons).solution();
     let PhotonSolution { energy, .. } = &solution;

@@ -49,10 +49,8 @@ fn a_roof_of_slivers_is_tight() {
                 // Across all strips and a little more, anywhere along them.
                 let share = (i as f64 + 0.5) / 4000.0;
                 let x = (at + (1.2 * share - 0.1) * f64::from(STRIPS) * width) as f32;
-                let ray = Ray {
-                    origin: Vec3A::new(x, 1.5, (1.9 * (0.618 * i as f32).fract()) - 0.95),
-                    direction: Vec3A::NEG_Y,
-                };
+                let origin = Vec3A::new(x, 1.5, (1.9 * (0.618 * i as f32).fract()) - 0.95);
+                let ray = Ray::new(origin, Vec3A::NEG_Y);
                 let hit = world.tracer.closest(&ray).expect("the room is closed");
                 assert!((hit.distance - 0.5).abs() < 1e-5, "{width} m wide at {at}: {ray:?} goes on to {hit:?}");
             }

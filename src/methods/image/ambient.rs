@@ -1,7 +1,7 @@
 //! Pictures with ambient light in place of light between surfaces: how much of it arrives, the diffuse colours without it,
 //! and both together (Landis 2002).
 
-use super::direct;
+use super::direct::Receiver;
 use super::eye_path::{DiffuseLight, Look, Seen, Sight, Tools};
 use crate::effects::Effect;
 use crate::math::rgb::Rgb;
@@ -81,7 +81,8 @@ impl AmbientLook {
     /// Light on the diffuse lobe straight from emitters, W/(m²·sr).
     fn direct(&self, surface: &Surface, bsdf: &Bsdf, tools: &mut Tools<'_>) -> Rgb {
         if self.transport.effects.contains(Effect::DirectLight) {
-            direct::spread(&self.transport, surface, bsdf, self.light_rays, tools)
+            Receiver { transport: &self.transport, surface, bsdf, is_spread: true }
+                .sample_direct(self.light_rays, tools)
         } else {
             tools.cost.save(Effect::DirectLight, self.light_rays);
             Rgb::ZERO

@@ -15,6 +15,10 @@ pub enum Use {
     Light,
     /// The direction of a diffuse ray.
     Gather,
+    /// The direction of a diffuse ray that looks for emitters alone.
+    DirectCosine,
+    /// The point of an emitter that the first glossy surface reflects.
+    Gloss,
 }
 
 /// Random numbers from (seed, pixel, sample) alone. Points of each [`Use`] are low-discrepancy over all samples of a pixel,
@@ -46,6 +50,14 @@ impl Draws {
         let index = self.sample * u64::from(count) + u64::from(i);
         let seed = hash(self.pixel, what as u64, index / SEQUENCE) as u32;
         sobol2((index % SEQUENCE) as u32, 0, seed)
+    }
+
+    /// A number and a point for item `i` of `count` that each sample takes for a use; independent ones where that is none.
+    pub fn numbers(&mut self, what: Option<Use>, i: u32, count: u32) -> (f32, Vec2) {
+        match what {
+            Some(what) => (self.spread1(what, i, count), self.spread(what, i, count)),
+            None => (self.stream.uniform(), self.stream.uniform2()),
+        }
     }
 
     /// Path `i` of `count` that each sample takes.

@@ -1,6 +1,6 @@
 //! Where the light of diffuse surfaces is known from, one for each view.
 
-use super::direct;
+use super::direct::Receiver;
 use super::eye_path::{DiffuseLight, Seen, Tools};
 use crate::effects::Effect;
 use crate::math::rgb::Rgb;
@@ -25,17 +25,15 @@ impl DiffuseLight for DirectLight {
     }
 }
 
-/// Well spread rays where the eye looks directly; behind a mirror one is enough.
+/// Radiance that a diffuse lobe sends on of direct light, W/(m²·sr), by so many rays to emitters.
 pub fn direct_light(transport: &Transport, seen: &Seen<'_>, rays: u32, tools: &mut Tools<'_>) -> Rgb {
-    let rays = if seen.to_eye.is_empty() { rays } else { 1 };
+    let rays = seen.light_rays(rays);
     if !transport.effects.contains(Effect::DirectLight) {
         tools.cost.save(Effect::DirectLight, rays);
-        Rgb::ZERO
-    } else if seen.to_eye.is_empty() {
-        direct::spread(transport, seen.surface, seen.bsdf, rays, tools)
-    } else {
-        direct::random(transport, seen.surface, seen.bsdf, tools)
+        return Rgb::ZERO;
     }
+    Receiver { transport, surface: seen.surface, bsdf: seen.bsdf, is_spread: seen.is_direct() }
+        .sample_direct(rays, tools)
 }
 
 /// Read off a radiosity solution as it was computed: one value an element.

@@ -6,6 +6,7 @@ mod sensors;
 pub use sensors::{Sensor, Sensors};
 
 use super::cost::Cost;
+use super::mis::power_heuristic;
 use super::shadows::is_lit;
 use super::transport::{Bsdf, Media, Sample, Surface, Transport};
 use crate::effects::{Effect, Effects, needed};
@@ -20,8 +21,11 @@ use std::sync::Arc;
 
 /// From this event on, what carries little light is ended at random.
 const ROULETTE: u64 = 4;
-/// Nothing goes on for certain then, so that all ends.
+/// At a lobe with a density nothing goes on for certain then, so that all ends.
 const MOST_SURVIVAL: f32 = 0.95;
+/// At mirrors and glass what loses nothing goes on for certain, or else light that is long under way between them, as by total
+/// reflection in a ball, would come out 1/0.95ⁿ times as bright and as rare. From this event on that ends, too.
+const MOST_CERTAIN: u64 = 512;
 
 /// Finds the light that arrives along rays, or at points.
 pub struct PathTracer {
@@ -36,9 +40,6 @@ pub struct PathTracer {
     purpose: Option<Effect>,
     /// Whether every path counts.
     counts_all: bool,
-    /// Whether rays that go on by chance may find emitters. They always see what stands in the way, so that they are of no
-    /// use where shadows are left out.
-    meets_emitters: bool,
 }
 
 /// A place on a path, and what it sends on to where the path came from.
@@ -72,7 +73,6 @@ impl PathTracer {
             counts_all: matcher.passes_all() && Effects::of(&purposes).but(counted).is_empty(),
             spreads: transport.effects.contains(Effect::Interreflection),
             purpose: purposes.into_iter().find(|&effect| transport.effects.contains(effect)),
-            meets_emitters: counted.contains(Effect::Shadows),
             matcher,
             counted,
             transport,
@@ -85,7 +85,7 @@ impl PathTracer {
         let surface = self.transport.meet(ray)?;
         let emitted = if self.counts(Path::LIGHT) { self.transport.emission(&surface) } else { Rgb::ZERO };
         let vertex = self.vertex(surface, ray, media, Path::LIGHT, cost);
-        Some(emitted + self.sent_on(vertex, point, cost))
+        Some(emitted + self.outgoing_radiance(vertex, point, cost))
     }
 
     /// E, W/m², on the side of a surface that it faces, whatever its material is.
@@ -94,25 +94,25 @@ impl PathTracer {
         let white = Lobes { diffuse: Rgb::ONE, ..Lobes::default() };
         let bsdf = Bsdf::new(&white, surface, surface.normal, 1.0);
         let vertex = Vertex { surface: *surface, bsdf, media, to_eye: Path::LIGHT, purpose: None };
-        PI * self.sent_on(vertex, point, cost)
+        PI * self.outgoing_radiance(vertex, point, cost)
     }
 
     /// L, W/(m²·sr), that a place sends on of all light that arrives there, by one path.
-    fn sent_on(&self, mut vertex: Vertex, point: &PaddedPoint, cost: &mut Cost) -> Rgb {
-        let (mut sum, mut throughput) = (Rgb::ZERO, Rgb::ONE);
+    fn outgoing_radiance(&self, mut vertex: Vertex, point: &PaddedPoint, cost: &mut Cost) -> Rgb {
+        // As flux, and what radiance is to be multiplied by besides, in glass.
+        let (mut sum, mut throughput, mut narrowing) = (Rgb::ZERO, Rgb::ONE, 1.0);
         for event in 0.. {
             // Of each event, one set of numbers is for the ray to an emitter, and the next for the way on.
-            sum += throughput * self.straight_from_emitters(&vertex, throughput, point.four(2 * event), cost);
+            sum += throughput * narrowing * self.sample_direct(&vertex, throughput, point.four(2 * event), cost);
             let [choice, u, v, survives] = point.four(2 * event + 1);
             let Some(sample) = vertex.bsdf.sample_at(throughput, choice, Vec2::new(u, v)) else { break };
-            throughput *= sample.weight * sample.narrowing;
-            if event >= ROULETTE {
-                let survival = throughput.max_element().min(MOST_SURVIVAL);
-                if survives >= survival {
-                    break;
-                }
-                throughput /= survival;
+            throughput *= sample.weight;
+            narrowing *= sample.narrowing;
+            let survival = survival(throughput, event, sample.is_sharp);
+            if survives >= survival {
+                break;
             }
+            throughput /= survival;
             let purpose = match sample.scattering {
                 Scattering::Diffuse => vertex.purpose,
                 Scattering::Specular => Some(sample.effect()),
@@ -128,8 +128,8 @@ impl PathTracer {
                 if sample.crosses { self.transport.media_behind(&vertex.surface, vertex.media) } else { vertex.media };
             let emission = self.transport.emission(&surface);
             if emission != Rgb::ZERO && self.counts(to_eye) {
-                let other = self.transport.emitters().density(emission, &surface, ray.direction);
-                sum += throughput * self.share_of_met(&sample, other) * emission;
+                let other = self.transport.emitters().pdf(&vertex.surface, &surface, ray.direction);
+                sum += throughput * narrowing * self.mis_weight(&sample, other) * emission;
             }
             vertex = self.vertex(surface, &ray, media, to_eye, cost);
         }
@@ -153,41 +153,34 @@ impl PathTracer {
 
     /// The weight of an emitter that a sampled direction met; `other` is the density, 1/sr, with which a point of it would have
     /// been chosen.
-    fn share_of_met(&self, sample: &Sample, other: f32) -> f32 {
+    fn mis_weight(&self, sample: &Sample, other: f32) -> f32 {
         if sample.is_sharp {
             // No ray to an emitter finds this way.
             1.0
-        } else if self.meets_emitters {
-            power_share(sample.density, other)
-        } else {
+        } else if self.transport.ignores_occluders {
             0.0
+        } else {
+            power_heuristic(sample.density, other)
         }
     }
 
     /// L, W/(m²·sr), that a place sends on of the light of a point of an emitter.
-    fn straight_from_emitters(
-        &self,
-        vertex: &Vertex,
-        throughput: Rgb,
-        [choice, u, v, _]: [f32; 4],
-        cost: &mut Cost,
-    ) -> Rgb {
-        let lamp = self.transport.emitters().point(choice, Vec2::new(u, v));
-        let arrival = lamp.and_then(|lamp| lamp.arrival(&vertex.surface));
-        let (Some(lamp), Some(arrival)) = (lamp, arrival) else { return Rgb::ZERO };
-        let values = vertex.bsdf.value(arrival.direction);
-        let densities = vertex.bsdf.densities(arrival.direction, throughput);
+    fn sample_direct(&self, vertex: &Vertex, throughput: Rgb, [choice, u, v, _]: [f32; 4], cost: &mut Cost) -> Rgb {
+        let sample = self.transport.emitters().sample(&vertex.surface, choice, Vec2::new(u, v));
+        let Some(sample) = sample else { return Rgb::ZERO };
+        let values = vertex.bsdf.value(sample.direction);
+        let densities = vertex.bsdf.densities(sample.direction, throughput);
         let mut value = Rgb::ZERO;
         for ((of_lobe, density), scattering) in values.into_iter().zip(densities).zip(Scattering::ALL) {
             if of_lobe != Rgb::ZERO && self.counts(vertex.to_eye.then(scattering)) {
-                let share = if self.meets_emitters { power_share(arrival.density, density) } else { 1.0 };
-                value += share * of_lobe;
+                let weight = if self.transport.ignores_occluders { 1.0 } else { power_heuristic(sample.pdf, density) };
+                value += weight * of_lobe;
             }
         }
-        if value == Rgb::ZERO || !is_lit(&self.transport, &vertex.surface, lamp.surface_point(), cost) {
+        if value == Rgb::ZERO || !is_lit(&self.transport, &vertex.surface, sample.point, cost) {
             return Rgb::ZERO;
         }
-        value * arrival.radiance
+        value * sample.radiance
     }
 
     /// Whether light counts that came to the eye by this path, from the eye on.
@@ -206,9 +199,12 @@ impl PathTracer {
     }
 }
 
-/// The weight of what one of two ways to choose a direction found, by the densities of both (Veach's power heuristic, β = 2).
-fn power_share(own: f32, other: f32) -> f32 {
-    // As a quotient, since squares of densities overflow.
-    let quotient = other / own;
-    if own > 0.0 { 1.0 / (1.0 + quotient * quotient) } else { 0.0 }
+/// The chance that a path goes on which carries this share of flux, from 0 on. Radiance in glass says nothing of what a path is
+/// worth: it is undone where the path leaves the glass (Veach 1997, section 5.2).
+fn survival(throughput: Rgb, event: u64, is_delta: bool) -> f32 {
+    match event {
+        0..ROULETTE => 1.0,
+        ROULETTE..MOST_CERTAIN if is_delta => throughput.max_element().min(1.0),
+        _ => throughput.max_element().min(MOST_SURVIVAL),
+    }
 }

@@ -1,9 +1,9 @@
 //! Which surfaces go on in each other, so that photons on one say something about light on the other.
 
 use super::border::{Border, Segment};
-use super::box_tree::{BoxTree, grown};
 use super::facet::{Facet, Limits};
 use crate::math::bounds::Bounds;
+use crate::math::box_tree::{BoxTree, grown};
 use crate::methods::transport::{Surface, Transport};
 use glam::Vec3A;
 use rayon::prelude::*;

@@ -12,7 +12,6 @@
 
 mod batch;
 mod border;
-mod box_tree;
 mod density;
 mod facet;
 mod ground;

@@ -114,7 +114,8 @@ impl<'a> Shower<'a> {
     }
 
     /// Whether a photon goes on, and if so in which direction and whether through the surface. It survives with the chance
-    /// that keeps the flux of its brightest channel as it was, on average.
+    /// that keeps the flux of its brightest channel as it was, on average. There is no cap: photons of unequal flux would be
+    /// noise, and what loses nothing ends at [`MAX_BOUNCES`].
     fn play(&self, bsdf: &Bsdf, flux: Rgb, stream: &mut Stream) -> (Roulette, Option<(Vec3A, bool)>) {
         let bsdf = match self.kind {
             MapKind::Global => *bsdf,

@@ -224,10 +224,12 @@ impl Bsdf {
     }
 
     /// How likely a lobe is chosen for this light, over [`Bsdf::weight_of_all`].
+    #[inline(always)]
     fn weight(&self, lobe: Lobe, light: Rgb) -> f32 {
         (light * self.share(lobe)).max_element()
     }
 
+    #[inline(always)]
     fn weight_of_all(&self, light: Rgb) -> f32 {
         LOBES.iter().map(|&lobe| self.weight(lobe, light)).sum()
     }
@@ -271,6 +273,7 @@ impl Bsdf {
     }
 
     /// The part of the light that a lobe keeps; of the glossy lobe, for light along the normal.
+    #[inline(always)]
     fn share(&self, lobe: Lobe) -> Rgb {
         match lobe {
             Lobe::Diffuse => self.diffuse,

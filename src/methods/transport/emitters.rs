@@ -1,39 +1,38 @@
-//! Emitters: where light starts, and where shadow rays go.
+//! All emitters of a scene: where light starts, and where shadow rays go.
 
+use super::emitter::Emitter;
 use super::{Media, Surface};
+use crate::math::bounds::Bounds;
+use crate::math::box_tree::{BoxTree, grown};
 use crate::math::random::{hash, sobol2};
 use crate::math::rgb::{Rgb, Rgb64, total};
 use crate::math::warp::{cosine_hemisphere, frame};
-use crate::mesh::{Region, Sampler};
 use crate::tracer::{Ray, SurfacePoint};
 use crate::world::World;
-use glam::{Vec2, Vec3A};
+use glam::{Vec2, Vec3, Vec3A};
 use std::f64::consts::PI;
 
 /// Points of one low-discrepancy sequence; the next ones belong to another.
 const SEQUENCE: u64 = 1 << 16;
+/// Coordinates of surfaces are known to about this share of how far rays are lifted off them, which is 32 units in the last
+/// place: a place that is so near to the plane of an emitter is taken to be in it.
+const ROUNDING: f64 = 1.0 / 16.0;
+/// Marks polygons that do not emit.
+const NONE: u32 = u32::MAX;
 
-/// The triangles of all emitters, chosen in proportion to their flux.
+/// The emitters, chosen in proportion to their flux.
 #[derive(Default)]
 pub struct Emitters {
-    lamps: Vec<Lamp>,
-    /// For each lamp the share of the flux of it and those before, in [0, 1].
+    emitters: Vec<Emitter>,
+    /// For each emitter the share of the flux of it and those before, in [0, 1].
     cumulative: Vec<f64>,
+    /// Of each polygon, the index of its emitter.
+    of_polygon: Vec<u32>,
+    /// Of each emitter, the box in which cosine-distributed rays may meet it more often than it is chosen.
+    reach: BoxTree,
     flux: Rgb64,
-}
-
-/// A triangle that emits from its front.
-struct Lamp {
-    points: Sampler,
-    normal: Vec3A,
-    polygon: u32,
-    media: Media,
-    /// W/(m²·sr)
-    radiance: Rgb,
-    /// m²
-    area: f64,
-    /// Chance to be chosen.
-    chance: f64,
+    /// Of coordinates of surfaces, m.
+    rounding: f64,
 }
 
 /// A photon as it leaves an emitter.
@@ -46,99 +45,57 @@ pub struct Emission {
     pub media: Media,
 }
 
-/// A point of an emitter, chosen with a known density.
+/// A direction from a place to a point of an emitter, and the light that comes from there if nothing is between.
 #[derive(Clone, Copy, Debug)]
-pub struct LampPoint {
-    pub point: Vec3A,
-    /// Unit normal of the front.
-    pub normal: Vec3A,
-    pub polygon: u32,
-    /// W/(m²·sr)
-    pub radiance: Rgb,
-    /// 1/m²
-    pub density: f32,
-}
-
-/// The light that a point of an emitter sends to a place, if nothing is between.
-#[derive(Clone, Copy, Debug)]
-pub struct Arrival {
+pub struct EmitterSample {
+    /// Of the emitter.
+    pub point: SurfacePoint,
     /// Unit vector towards the point.
     pub direction: Vec3A,
-    /// L over `density`: times f |cos θ|, its expectation is the radiance that the place sends on, W/(m²·sr).
+    /// L over `pdf`: times f |cos θ|, its expectation is the radiance that the place sends on, W/(m²·sr).
     pub radiance: Rgb,
-    /// Of the choice of the direction, 1/sr.
-    pub density: f32,
-}
-
-impl LampPoint {
-    /// Where shadow rays end.
-    pub fn surface_point(&self) -> SurfacePoint {
-        SurfacePoint { point: self.point, polygon: self.polygon }
-    }
-
-    /// `None` where the place is behind the emitter, or a part of it.
-    pub fn arrival(&self, surface: &Surface) -> Option<Arrival> {
-        let way = self.point - surface.point;
-        let square = way.length_squared();
-        let direction = way / square.sqrt();
-        let cosine = -direction.dot(self.normal);
-        if self.polygon == surface.polygon || cosine.is_nan() || cosine <= 0.0 {
-            return None;
-        }
-        let density = self.density * square / cosine;
-        Some(Arrival { direction, radiance: self.radiance / density, density })
-    }
+    /// Of the direction, 1/sr.
+    pub pdf: f32,
 }
 
 impl Emitters {
     /// The emitters of a world; of a polygon's front, `front` tells the unit normal and the emission, W/(m²·sr).
     pub fn new(world: &World, front: impl Fn(usize) -> (Vec3A, Rgb)) -> Self {
         let scene = &world.scene;
-        let mut lamps = Vec::new();
+        let offset = world.tracer.offset();
+        let (mut emitters, mut of_polygon) = (Vec::new(), vec![NONE; scene.polygons.len()]);
         for (index, polygon) in scene.polygons.iter().enumerate() {
             let (normal, radiance) = front(index);
-            if radiance == Rgb::ZERO {
-                continue;
-            }
-            let corner = |i: usize| Vec3A::from(scene.positions[polygon.corners()[i] as usize]);
-            // A quad need not be a parallelogram, on which alone a bilinear map is uniform.
-            for i in 2..polygon.corners().len() {
-                let corners = [corner(0), corner(i - 1), corner(i)];
-                let region = Region::new([corners[0], corners[1], corners[2], corners[2]], 3);
-                let [a, b, c] = corners.map(|corner| corner.as_dvec3());
-                lamps.push(Lamp {
-                    points: region.sampler(Vec3A::ZERO),
-                    normal,
-                    polygon: index as u32,
-                    media: Media::default(),
-                    radiance,
-                    area: 0.5 * (b - a).cross(c - a).length(),
-                    chance: 0.0,
-                });
+            if radiance != Rgb::ZERO {
+                let corner = |&corner: &u32| Vec3A::from(scene.positions[corner as usize]);
+                let corners: Vec<Vec3A> = polygon.corners().iter().map(corner).collect();
+                of_polygon[index] = emitters.len() as u32;
+                emitters.push(Emitter::new(index as u32, &corners, normal, radiance));
             }
         }
-        let flux: Rgb64 = lamps.iter().map(Lamp::flux).sum();
+        let flux: Rgb64 = emitters.iter().map(Emitter::flux).sum();
         let mut sum = 0.0;
-        let mut cumulative = Vec::with_capacity(lamps.len());
-        for lamp in &mut lamps {
-            lamp.chance = total(lamp.flux()) / total(flux);
-            sum += lamp.chance;
+        let mut cumulative = Vec::with_capacity(emitters.len());
+        for emitter in &mut emitters {
+            let probability = total(emitter.flux()) / total(flux);
+            emitter.set_probability(probability, sum);
+            sum += probability;
             cumulative.push(sum);
         }
-        Self { lamps, cumulative, flux }
+        let reach = BoxTree::new(emitters.iter().map(|emitter| reach(emitter, flux)).collect());
+        Self { emitters, cumulative, of_polygon, reach, flux, rounding: ROUNDING * f64::from(offset) }
     }
 
     /// Finds out which glass each emitter is in; `media_beside` knows it of a point of a side.
     pub fn place_in_media(&mut self, media_beside: impl Fn(SurfacePoint, Vec3A) -> Media) {
-        for lamp in &mut self.lamps {
-            let middle = SurfacePoint { point: lamp.points.point(Vec2::splat(0.5)), polygon: lamp.polygon };
-            lamp.media = media_beside(middle, lamp.normal);
+        for emitter in &mut self.emitters {
+            emitter.media = media_beside(emitter.point(0.0, Vec2::splat(0.5)), emitter.normal);
         }
     }
 
     /// Whether nothing emits.
     pub fn is_empty(&self) -> bool {
-        self.lamps.is_empty()
+        self.emitters.is_empty()
     }
 
     /// Σ π L A, W.
@@ -152,44 +109,71 @@ impl Emitters {
     pub fn emit(&self, index: u64, count: u64, seed: u64, pass: u64) -> Option<Emission> {
         let sequence = hash(seed, pass, index / SEQUENCE) as u32;
         let place = (index % SEQUENCE) as u32;
-        let lamp = self.choose(f64::from(sobol2(place, 2, sequence).x))?;
-        let direction = frame(lamp.normal) * cosine_hemisphere(sobol2(place, 1, sequence));
-        let from = SurfacePoint { point: lamp.points.point(sobol2(place, 0, sequence)), polygon: lamp.polygon };
-        let flux = lamp.flux() / (lamp.chance * count as f64);
-        Some(Emission { ray: Ray::leaving(from, direction), flux: flux.as_vec3(), media: lamp.media })
+        let (emitter, which) = self.choose(f64::from(sobol2(place, 2, sequence).x))?;
+        let direction = frame(emitter.normal) * cosine_hemisphere(sobol2(place, 1, sequence));
+        let from = emitter.point(which, sobol2(place, 0, sequence));
+        let flux = emitter.flux() / (emitter.probability() * count as f64);
+        Some(Emission { ray: Ray::leaving(from, direction), flux: flux.as_vec3(), media: emitter.media })
     }
 
-    /// A point of an emitter, for numbers in [0, 1): emitters in proportion to their flux, points evenly over each. `None`
+    /// A direction from a place to an emitter, for numbers in [0, 1): emitters in proportion to their flux, then directions by
+    /// solid angle where the emitter is near, and else by area. `None` where the place is behind the emitter or on it, and
     /// where nothing emits.
-    pub fn point(&self, choice: f32, at: Vec2) -> Option<LampPoint> {
-        let lamp = self.choose(f64::from(choice))?;
-        Some(LampPoint {
-            point: lamp.points.point(at),
-            normal: lamp.normal,
-            polygon: lamp.polygon,
-            radiance: lamp.radiance,
-            density: (lamp.chance / lamp.area) as f32,
-        })
+    #[inline]
+    pub fn sample(&self, surface: &Surface, choice: f32, at: Vec2) -> Option<EmitterSample> {
+        let (emitter, which) = self.choose(f64::from(choice))?;
+        if emitter.polygon == surface.polygon {
+            return None;
+        }
+        let (direction, point, pdf) = if emitter.is_near(surface.point) {
+            emitter.sample_near(surface.point, self.rounding, which, at)?
+        } else {
+            let point = emitter.point(which, at);
+            let way = point.point - surface.point;
+            let distance = way.length();
+            let direction = way / distance;
+            (direction, point, emitter.pdf_by_area(direction, distance)?)
+        };
+        Some(EmitterSample { point, direction, radiance: emitter.radiance / pdf, pdf })
     }
 
-    /// The density, 1/sr, with which [`Emitters::point`] chooses the direction of a ray that met the front of an emitter, with
-    /// this emission.
-    pub fn density(&self, emission: Rgb, surface: &Surface, direction: Vec3A) -> f32 {
-        // Chosen by flux, the same for all points of all triangles with this emission.
-        let density = PI * total(emission.as_dvec3()) / total(self.flux);
-        let cosine = -direction.dot(surface.facing);
-        density as f32 * surface.distance * surface.distance / cosine.max(f32::MIN_POSITIVE)
+    /// The density, 1/sr, with which [`Emitters::sample`] chooses the direction of a ray that went from `surface` and met an
+    /// emitter.
+    pub fn pdf(&self, surface: &Surface, met: &Surface, direction: Vec3A) -> f32 {
+        let Some(emitter) = self.emitters.get(self.of_polygon[met.polygon as usize] as usize) else { return 0.0 };
+        let pdf = if emitter.is_near(surface.point) {
+            emitter.pdf_near(surface.point, self.rounding)
+        } else {
+            emitter.pdf_by_area(direction, met.distance)
+        };
+        pdf.unwrap_or(0.0)
     }
 
-    fn choose(&self, choice: f64) -> Option<&Lamp> {
-        let place = self.cumulative.partition_point(|&share| share <= choice);
-        self.lamps.get(place).or(self.lamps.last())
+    /// Whether cosine-distributed directions from a place may meet an emitter more often than [`Emitters::sample`] chooses it,
+    /// so that both ways are worth while.
+    pub fn are_near(&self, surface: &Surface) -> bool {
+        let is_faced = |index: u32| {
+            let emitter = &self.emitters[index as usize];
+            let height = (surface.point - emitter.corners()[0]).dot(emitter.normal);
+            emitter.polygon != surface.polygon
+                && f64::from(height) > self.rounding
+                && emitter.corners().iter().any(|corner| (corner - surface.point).dot(surface.facing) > 0.0)
+        };
+        self.reach.any_at(surface.point.into(), &is_faced)
+    }
+
+    /// An emitter, and a number in [0, 1) that is left of the one that chose it.
+    fn choose(&self, choice: f64) -> Option<(&Emitter, f32)> {
+        let last = self.emitters.len().checked_sub(1)?;
+        let index = self.cumulative.partition_point(|&share| share <= choice).min(last);
+        let emitter = &self.emitters[index];
+        Some((emitter, emitter.rest_of(choice)))
     }
 }
 
-impl Lamp {
-    /// W
-    fn flux(&self) -> Rgb64 {
-        self.radiance.as_dvec3() * (PI * self.area)
-    }
+/// The box round an emitter in which a cosine-distributed ray may have a greater density, at most 1/π, than the choice of a
+/// point, p r²/cos θ: where r² < 1/(π p), with p = π L / Φ per area.
+fn reach(emitter: &Emitter, flux: Rgb64) -> Bounds {
+    let square = total(flux) / (PI * PI * total(emitter.radiance.as_dvec3()));
+    grown(&Bounds::of(emitter.corners().iter().map(|&corner| Vec3::from(corner))), square.sqrt() as f32)
 }

@@ -2,6 +2,7 @@
 //! camera, which go against it.
 
 mod bsdf;
+mod emitter;
 mod emitters;
 mod filter;
 mod fresnel;
@@ -10,13 +11,13 @@ mod phong;
 mod surface;
 
 pub use bsdf::{Bsdf, Sample};
-pub use emitters::{Arrival, Emission, Emitters, LampPoint};
+pub use emitters::{Emission, EmitterSample, Emitters};
 pub use filter::colour;
 pub use fresnel::{fresnel_reflectance, reflect, refract};
 pub use media::Media;
 pub use surface::Surface;
 
-use crate::effects::{Effect, Effects, Switches};
+use crate::effects::{Effect, Effects, Switches, needed};
 use crate::math::polygon::vector_area;
 use crate::math::rgb::Rgb;
 use crate::scene::{Lobes, Material};
@@ -30,6 +31,9 @@ pub struct Transport {
     pub world: Arc<World>,
     /// Those that are simulated.
     pub effects: Effects,
+    /// Whether shadow rays pass through what stands in the way: shadows are left out of a scene that calls for them. Rays that
+    /// meet surfaces cannot do so, and are of no use then to find emitters.
+    pub ignores_occluders: bool,
     /// Of each material.
     looks: Vec<MaterialLook>,
     facets: Vec<Facet>,
@@ -65,7 +69,9 @@ struct Facet {
 impl Transport {
     /// With the effects that the world calls for, but for what the switches say.
     pub fn new(world: Arc<World>, switches: Switches) -> Self {
-        let effects = switches.simulated_in(&world);
+        let needed = needed(&world);
+        let effects = switches.simulated(needed);
+        let ignores_occluders = needed.contains(Effect::Shadows) && !effects.contains(Effect::Shadows);
         let scene = &world.scene;
         let facet = |corners: &[u32]| {
             let corners: Vec<Vec3> = corners.iter().map(|&corner| scene.positions[corner as usize]).collect();
@@ -77,7 +83,7 @@ impl Transport {
         let emission = |polygon: usize| looks[scene.polygons[polygon].material as usize].emission;
         let emitters = Emitters::new(&world, |polygon| (facets[polygon].normal, emission(polygon)));
         let has_glass = scene.materials.iter().any(Material::is_glass);
-        let mut transport = Self { effects, looks, facets, emitters, has_glass, world };
+        let mut transport = Self { effects, ignores_occluders, looks, facets, emitters, has_glass, world };
         let mut emitters = std::mem::take(&mut transport.emitters);
         emitters.place_in_media(|from, facing| transport.media_beside(from, facing));
         Self { emitters, ..transport }

@@ -33,6 +33,23 @@ impl BoxTree {
         }
     }
 
+    /// Whether `is_wanted` holds for the index of any box that `point` is in; it is asked of each at most once.
+    pub fn any_at(&self, point: Vec3, is_wanted: &impl Fn(u32) -> bool) -> bool {
+        !self.nodes.is_empty() && self.any_in_node(0, &self.order, &Bounds { min: point, max: point }, is_wanted)
+    }
+
+    fn any_in_node(&self, node: usize, boxes: &[u32], region: &Bounds, is_wanted: &impl Fn(u32) -> bool) -> bool {
+        if !touch(&self.nodes[node], region) {
+            return false;
+        }
+        if 2 * node + 1 >= self.nodes.len() {
+            return boxes.iter().any(|&index| touch(&self.boxes[index as usize], region) && is_wanted(index));
+        }
+        let (low, high) = boxes.split_at(boxes.len() / 2);
+        self.any_in_node(2 * node + 1, low, region, is_wanted)
+            || self.any_in_node(2 * node + 2, high, region, is_wanted)
+    }
+
     fn visit_node(&self, node: usize, boxes: &[u32], region: &Bounds, visit: &mut impl FnMut(u32)) {
         if !touch(&self.nodes[node], region) {
             return;
