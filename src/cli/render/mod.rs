@@ -5,7 +5,7 @@ mod diagrams;
 mod subject;
 mod views;
 
-use super::budget::Account;
+use super::budget::BudgetOutcome;
 use super::camera_options::CameraOptions;
 use super::image_options::ImageOptions;
 use super::occlusion_options::OcclusionOptions;
@@ -78,7 +78,7 @@ struct Drawn {
     /// What is said of the picture itself goes under `picture`.
     report: Value,
     /// What a budget has led to, if there was one.
-    account: Option<Account>,
+    account: Option<BudgetOutcome>,
 }
 
 pub fn run(options: &Options) -> Result<(), CliError> {
