@@ -28,8 +28,12 @@ use studio::{JUDGING, Studio};
 /// The truth is to be known to this share of what is wanted before an error counts as reached: over some hundred pixels that
 /// leaves it uncertain by less than a tenth.
 const FLOOR: f64 = 0.9;
-/// Share of the time of the picture that making the truth as well known may take.
+/// Share of the time of the picture that making the truth as well known may take, and this many seconds in any case.
 const LOOKING: f64 = 0.15;
+const LEAST_LOOKING: f64 = 0.25;
+/// A picture with so many times the samples that were expected to do is good enough where nothing speaks against it, however
+/// badly the truth is known: the judges say what came of it.
+const AMPLE: f64 = 1.5;
 /// Share of the time allowed that is kept for saying how far off the picture is.
 const TELLING: f64 = 0.04;
 /// Pixels that say how far off a picture is that no time limits, how uncertain that may be, as a share of the error, and the
@@ -179,14 +183,15 @@ impl Darkroom<'_> {
             let width = self.studio.request.size[0];
             let words =
                 format!("rendering {}: {} samples of about {expected:.0}", recipe.way_in_words(), exposure.samples());
-            let allowed = (LOOKING * exposure.seconds() - looking).min(left(end));
+            let allowed = (LEAST_LOOKING + LOOKING * exposure.seconds() - looking).min(left(end));
             let start = Instant::now();
             self.studio.refine_until(FLOOR * wanted, allowed);
             looking += start.elapsed().as_secs_f64();
             let error = self.studio.truth.error(&self.studio.truth.of_places(radiance, width));
             let best = error.map(|error| error.in_words());
             (self.studio.tell)(&SearchProgress { doing: words, best });
-            error.is_some_and(|error| error.rms + error.uncertainty <= wanted)
+            let is_ample = f64::from(exposure.samples()) >= AMPLE * expected;
+            error.is_some_and(|error| error.rms + error.uncertainty <= wanted || is_ample && error.rms <= wanted)
         })
     }
 }

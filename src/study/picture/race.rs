@@ -255,10 +255,10 @@ mod tests {
             let [light, sample, bias, noise] = match recipe.way {
                 Way::Reference => [0.0, 0.01, 0.0, TRACED],
                 Way::RadiosityDirect if recipe.settings.solver == Solver::Southwell => {
-                    [0.03 * turns.powf(3.3), 0.006, 0.09 / turns, 0.005]
+                    [0.03 * turns.powf(2.2), 0.006, 0.09 / turns, 0.005]
                 }
                 Way::RadiosityDirect => [0.1 * turns.powf(2.2), 0.006, 0.09 / turns, 0.005],
-                Way::FinalGather => [0.1 * photons, 0.05, 0.01 / photons.sqrt(), 0.1],
+                Way::FinalGather => [0.1 * photons, 0.05, 0.01 / photons.sqrt(), 0.2],
                 _ => [0.0, 0.01, 0.3, 0.005],
             };
             [light * self.light * self.slowness, sample * self.slowness, bias, noise]
@@ -371,8 +371,9 @@ mod tests {
         }
     }
 
-    /// What is good enough soonest, as a look at the curves shows: 0.0081 + 0.005 / n falls short of 5 %, elements of half the
-    /// size do not, and 1 % is had by rays alone, or by final gather.
+    /// What is good enough soonest, as a look at the curves shows. Elements of a quarter of the first size have a bias of
+    /// 2.25 % after 6.4 s, and a sample of 0.06 s reaches 5 %, for which path tracing takes 32 s. For 0.2 % it takes 1,975 s, and
+    /// radiosity more.
     #[test]
     fn the_cheapest_that_is_good_enough_wins() {
         let way = |error| race(&mut Curves::new(1.0, 1.0), until(error)).0.recipe.way;
@@ -389,6 +390,6 @@ mod tests {
         let mut lab = Curves::new(1.0, 1000.0);
         let (winner, now) = race(&mut lab, within(Some(0.05), 0.5));
         assert_eq!(winner.recipe.way, Way::Reference);
-        assert!(now < 0.25 * 0.5, "{now}");
+        assert!(now <= 0.25 * 0.5 + lab.first_round(), "{now}");
     }
 }
