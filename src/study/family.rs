@@ -181,3 +181,38 @@ impl Family {
         self.tried.push(tried);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cancel::Cancel;
+    use crate::scene::Scene;
+    use crate::world::World;
+    use std::sync::Arc;
+
+    fn photons() -> Family {
+        let scene = Scene::open("furnace").expect("a built-in scene");
+        let world = World::build(scene, &MeshSettings::default(), &Cancel::default()).expect("a world");
+        let bench = Bench::open(Arc::new(world), MeshSettings::default(), None);
+        families(&bench, &Settings::default()).remove(2)
+    }
+
+    /// Passes that fall short of an error are not thrown away: an attempt that the error ends may take 2^1.5 times as many as
+    /// are expected to do, and counts by how many it took.
+    #[test]
+    fn passes_go_on_until_the_error_is_there() {
+        let mut photons = photons();
+        assert_eq!(photons.recipe(0.0, true).settings.photons.passes, 1);
+        photons.note(0.0, Some(Tried { seconds: 1.0, all_seconds: 1.0, error: 0.4, is_finished: true }));
+        let passes = |is_ended_by_error| photons.recipe(2.0, is_ended_by_error).settings.photons.passes;
+        assert_eq!((passes(false), passes(true)), (4, 11));
+        let came_out = Recipe { way: Way::PhotonMap, settings: photons.recipe(3.0, false).settings };
+        let turns = photons.turns_to(&came_out);
+        assert_eq!(turns, 3.0);
+        photons.note(turns, Some(Tried { seconds: 8.0, all_seconds: 8.0, error: 0.1, is_finished: true }));
+        // Twice the time and 0.63 of the error, turn by turn.
+        let next = photons.prediction(1.0);
+        assert!((next.seconds.expect("seconds") - 16.0).abs() < 1e-9, "{next:?}");
+        assert!((next.error.expect("an error") - 0.1 * 0.25_f64.powf(1.0 / 3.0)).abs() < 1e-9, "{next:?}");
+    }
+}

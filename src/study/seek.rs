@@ -276,3 +276,30 @@ impl Search<'_> {
 fn meets(error: &Error, wanted: f64) -> bool {
     error.rms + error.uncertainty <= SAFE * wanted
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::MeshSettings;
+    use crate::scene::Scene;
+    use crate::world::World;
+    use std::sync::Arc;
+
+    #[test]
+    fn a_search_says_what_it_tries_and_the_best_so_far() {
+        let scene = Scene::open("empty-box").expect("a built-in scene");
+        let world = World::build(scene, &MeshSettings::default(), &Cancel::default()).expect("a world");
+        let mut bench = Bench::open(Arc::new(world), MeshSettings::default(), None);
+        let mut told: Vec<SearchProgress> = Vec::new();
+        // Nothing has so small an error at the first attempt, so each family is tried.
+        let budget = Budget { error: Some(0.08), end: None };
+        let found = seek(&mut bench, &Settings::default(), &budget, &Cancel::default(), &mut |news| {
+            told.push(news.clone());
+        });
+        assert!(found.expect("light").error.rms <= 0.08);
+        for doing in ["tracing the reference", "trying Radiosity", "trying Photon map"] {
+            assert!(told.iter().any(|news| news.doing.starts_with(doing)), "{doing}: {told:?}");
+        }
+        assert!(told[0].best.is_none() && told.iter().any(|news| news.best.is_some()), "{told:?}");
+    }
+}
