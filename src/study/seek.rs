@@ -292,11 +292,11 @@ mod tests {
         let mut bench = Bench::open(Arc::new(world), MeshSettings::default(), None);
         let mut told: Vec<SearchProgress> = Vec::new();
         // Nothing has so small an error at the first attempt, so each family is tried.
-        let budget = Budget { error: Some(0.08), end: None };
+        let budget = Budget { error: Some(0.04), end: None };
         let found = seek(&mut bench, &Settings::default(), &budget, &Cancel::default(), &mut |news| {
             told.push(news.clone());
         });
-        assert!(found.expect("light").error.rms <= 0.08);
+        assert!(found.expect("light").error.rms <= 0.04);
         for doing in ["tracing the reference", "trying Radiosity", "trying Photon map"] {
             assert!(told.iter().any(|news| news.doing.starts_with(doing)), "{doing}: {told:?}");
         }
