@@ -25,7 +25,8 @@ pub struct Options {
     #[arg(long, value_name = "METHOD", value_parser = parse::<LightMethod>)]
     method: Option<LightMethod>,
     /// Choose the method and its settings: the cheapest whose error is at most this share of the mean irradiance. With --time
-    /// instead, and no --method, the most accurate within this time in all
+    /// instead, and no --method, the most accurate within this time in all; with both, the same, but no longer than the error
+    /// takes
     #[arg(long, value_name = "PERCENT", conflicts_with_all = ["steps", "converge"], value_parser = values::percent)]
     error: Option<f64>,
     #[command(flatten)]

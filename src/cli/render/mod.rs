@@ -35,7 +35,7 @@ pub struct Options {
     view: Option<Subject>,
     /// Choose the settings, and the view unless --view says it: the cheapest picture whose error is at most this share of the
     /// mean radiance of the surfaces that are seen. With --time instead, and no --view, the most accurate within this time in
-    /// all
+    /// all; with both, the same, but no longer than the error takes
     #[arg(long, value_name = "PERCENT", conflicts_with_all = ["steps", "converge"], value_parser = values::percent)]
     error: Option<f64>,
     /// How many bounces of light the view `bounces` shows
