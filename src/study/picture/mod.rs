@@ -190,7 +190,8 @@ impl Darkroom<'_> {
             let error = self.studio.truth.error(&self.studio.truth.of_places(radiance, width));
             let best = error.map(|error| error.in_words());
             (self.studio.tell)(&SearchProgress { doing: words, best });
-            let is_ample = f64::from(exposure.samples()) >= AMPLE * expected;
+            // Where there is no judge the time allowed is better used.
+            let is_ample = !self.targets.is_timed && f64::from(exposure.samples()) >= AMPLE * expected;
             error.is_some_and(|error| error.rms + error.uncertainty <= wanted || is_ample && error.rms <= wanted)
         })
     }
