@@ -174,24 +174,24 @@ impl Darkroom<'_> {
         recipe: &Recipe,
         expected: f64,
     ) -> Stopped {
-        let Some(wanted) = wanted else {
-            (self.studio.tell)(&SearchProgress::of(format!("rendering {}", recipe.way_in_words())));
-            return exposure.advance(end, self.studio.cancel, &mut |_, _| false);
-        };
         let (cancel, mut looking) = (self.studio.cancel, 0.0);
         exposure.advance(end, cancel, &mut |exposure, radiance| {
+            let samples = exposure.samples();
+            let doing = format!("rendering {}: {samples} samples of about {expected:.0}", recipe.way_in_words());
+            let Some(wanted) = wanted else {
+                (self.studio.tell)(&SearchProgress::of(doing));
+                return false;
+            };
             let width = self.studio.request.size[0];
-            let words =
-                format!("rendering {}: {} samples of about {expected:.0}", recipe.way_in_words(), exposure.samples());
             let allowed = (LEAST_LOOKING + LOOKING * exposure.seconds() - looking).min(left(end));
             let start = Instant::now();
             self.studio.refine_until(FLOOR * wanted, allowed);
             looking += start.elapsed().as_secs_f64();
             let error = self.studio.truth.error(&self.studio.truth.of_places(radiance, width));
             let best = error.map(|error| error.in_words());
-            (self.studio.tell)(&SearchProgress { doing: words, best });
+            (self.studio.tell)(&SearchProgress { doing, best });
             // Where there is no judge the time allowed is better used.
-            let is_ample = !self.targets.is_timed && f64::from(exposure.samples()) >= AMPLE * expected;
+            let is_ample = !self.targets.is_timed && f64::from(samples) >= AMPLE * expected;
             error.is_some_and(|error| error.rms + error.uncertainty <= wanted || is_ample && error.rms <= wanted)
         })
     }
