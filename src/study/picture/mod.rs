@@ -129,9 +129,14 @@ impl Darkroom<'_> {
         let now = self.studio.start.elapsed().as_secs_f64();
         let expected = runner.forecast.picture_seconds(&self.targets, now);
         let samples = expected / runner.forecast.sample_seconds;
+        // What cannot be had in the time allowed is not looked for, which would take a part of the time.
+        let mut wanted = self.targets.error.map(|error| SAFE * error);
         let (foreseen, end) = match runner.forecast.own_merit(&self.targets, now, Attitude::Careful) {
             Merit::Reaches(_) => (self.targets.error, self.end),
-            Merit::Leaves(error) if self.targets.is_timed => (Some(error), self.end),
+            Merit::Leaves(error) if self.targets.is_timed => {
+                wanted = None;
+                (Some(error), self.end)
+            }
             // More samples would not make it better.
             Merit::Leaves(error) => (Some(error), self.end.min(Instant::now() + Duration::from_secs_f64(expected))),
         };
@@ -141,7 +146,6 @@ impl Darkroom<'_> {
             return Ok(None);
         };
         let mut judge = Judge::new(&self.studio);
-        let mut wanted = self.targets.error.map(|error| SAFE * error);
         let mut error = None;
         for _ in 0..MORE {
             let stopped = self.advance(&mut exposure, wanted, end, &runner.recipe, samples);
