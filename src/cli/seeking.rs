@@ -16,7 +16,7 @@ use std::time::Duration;
 
 /// What is kept of the time allowed for telling what was found, and for drawing and writing a picture.
 const FOR_TELLING: Duration = Duration::from_millis(50);
-const FOR_DRAWING: Duration = Duration::from_millis(150);
+const FOR_DRAWING: Duration = Duration::from_millis(200);
 const FOR_A_PIXEL: Duration = Duration::from_nanos(400);
 
 /// Light that a budget has led to.

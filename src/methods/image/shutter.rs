@@ -9,6 +9,7 @@ use crate::methods::transport::Media;
 use glam::Vec2;
 
 /// Takes samples of the pixels of one picture.
+#[derive(Clone)]
 pub struct Shutter {
     eye_rays: EyeRays,
     /// The glass that the eye is in.

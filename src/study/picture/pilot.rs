@@ -4,7 +4,6 @@ use super::PictureRequest;
 use super::forecast::Forecast;
 use crate::accuracy::PixelTruth;
 use crate::cancel::Cancel;
-use crate::methods::Settings;
 use crate::methods::image::Pixels;
 use crate::study::attempt::CannotTry;
 use crate::study::lit::{Lit, light_of};
@@ -49,13 +48,16 @@ impl PilotRender {
             worlds.first().clone()
         };
         let Some(lit) = light_of(&world, view, &recipe.settings, end, &cancel)? else { return Ok(None) };
-        let pixels = |seed| {
-            let settings = Settings { seed, ..recipe.settings };
-            Pixels::new(&lit.sources, view, request.camera, request.size, truth.places().clone(), &settings)
-        };
-        let replicates: Option<Vec<Pixels>> = truth.seeds().map(pixels).collect();
+        let (places, settings) = (truth.places().clone(), &recipe.settings);
+        let pixels = Pixels::new(&lit.sources, view, request.camera, request.size, places, settings);
         let light_seconds = start.elapsed().as_secs_f64();
-        Ok(replicates.map(|replicates| Self { recipe: *recipe, lit, light_seconds, replicates, sampling_seconds: 0.0 }))
+        Ok(pixels.map(|pixels| Self {
+            recipe: *recipe,
+            lit,
+            light_seconds,
+            replicates: truth.seeds().map(|seed| pixels.reseeded(seed)).collect(),
+            sampling_seconds: 0.0,
+        }))
     }
 
     /// Takes samples until there are so many of each pixel in each replicate, and holds them against the truth, which has as
