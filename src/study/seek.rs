@@ -25,8 +25,8 @@ const CAREFUL: f64 = 0.7;
 /// The truth is to be known to this share of the error that is wanted: at a thousand points that leaves the error uncertain by
 /// 5 %.
 const FLOOR: f64 = 1.2;
-/// Share of the time allowed, or of the time since the search began, in which the truth is looked for; and in any case, where
-/// nothing limits the time.
+/// Share of the time allowed, or of the time that an attempt is expected to take, in which the truth is looked for; and in any
+/// case, where nothing limits the time.
 const TRUTH: f64 = 0.1;
 const LEAST_TRUTH: Duration = Duration::from_millis(300);
 /// The same of an attempt before there is anything to fall back on, and what an attempt may take that nothing is known of.
@@ -58,7 +58,7 @@ pub fn seek(
     let start = Instant::now();
     let end = budget.end_from(start);
     let mut search = Search { settings, budget, start, end, cancel, tell, best: None, refusal: None };
-    search.look_at_truth(bench);
+    search.look_at_truth(bench, 0.0);
     if bench.reference.truth().is_dark() {
         return Err(NotFound::without_light(bench.world()));
     }
@@ -73,13 +73,16 @@ pub fn seek(
     while !search.is_over(bench) {
         let Some((family, turns)) = search.choose(&families) else { break };
         let family = &mut families[family];
-        let recipe = family.recipe(turns, budget.error.is_some());
+        let (recipe, prediction) = (family.recipe(turns, budget.error.is_some()), family.prediction(turns));
+        search.look_at_truth(bench, prediction.seconds.unwrap_or_default());
+        if search.is_over(bench) {
+            break;
+        }
         let end = search.end_of_attempt(family.tried.is_empty());
-        match search.follow(bench, &recipe, family.prediction(turns), end) {
+        match search.follow(bench, &recipe, prediction, end) {
             Some((recipe, tried)) => family.note(family.turns_to(&recipe), Some(tried)),
             None => family.note(turns, None),
         }
-        search.look_at_truth(bench);
     }
     if budget.error.is_none() {
         search.tell("measuring the error");
@@ -111,15 +114,13 @@ impl Search<'_> {
         part * self.end.saturating_duration_since(Instant::now()).as_secs_f64()
     }
 
-    /// A truth that is good enough to tell whether light is, or as good as a part of the time allows.
-    fn look_at_truth(&mut self, bench: &mut Bench) {
-        let now = Instant::now();
-        // Of what the search has taken so far, where only the error that is wanted ends it.
-        let whole = if self.budget.end.is_some() { self.end - self.start } else { now - self.start };
+    /// A truth that is good enough to tell whether light is, or as good as a part of the time allows; where only the error that
+    /// is wanted ends the search, of the time that the next attempt is expected to take.
+    fn look_at_truth(&mut self, bench: &mut Bench, expected: f64) {
         let allowed = if self.budget.end.is_some() {
-            self.start + whole.mul_f64(TRUTH)
+            self.start + (self.end - self.start).mul_f64(TRUTH)
         } else {
-            now + whole.mul_f64(TRUTH).max(LEAST_TRUTH)
+            Instant::now() + Duration::from_secs_f64(TRUTH * expected.min(3600.0)).max(LEAST_TRUTH)
         };
         let floor = self.budget.error.map_or(0.0, |error| FLOOR * error);
         let is_enough = |truth: &Truth| truth.floor <= floor || truth.is_dark();
