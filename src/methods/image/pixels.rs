@@ -57,7 +57,7 @@ impl Pixels {
     pub fn reseeded(&self, seed: u64) -> Self {
         Self {
             eye: self.eye.clone(),
-            shutter: Shutter { seed, ..self.shutter.clone() },
+            shutter: self.shutter.reseeded(seed),
             places: self.places.clone(),
             channels: vec![[Moments::default(); 3]; self.places.len()],
             samples: 0,

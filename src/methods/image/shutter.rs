@@ -9,7 +9,6 @@ use crate::methods::transport::Media;
 use glam::Vec2;
 
 /// Takes samples of the pixels of one picture.
-#[derive(Clone)]
 pub struct Shutter {
     eye_rays: EyeRays,
     /// The glass that the eye is in.
@@ -21,6 +20,11 @@ pub struct Shutter {
 impl Shutter {
     pub fn new(camera: &Camera, media: Media, size: [u32; 2], seed: u64) -> Self {
         Self { eye_rays: camera.rays(size), media, size, seed }
+    }
+
+    /// The same with other random numbers.
+    pub fn reseeded(&self, seed: u64) -> Self {
+        Self { seed, ..*self }
     }
 
     /// Sample `sample` of a cell of `cell` pixels: of a coarse one in its middle, of a pixel anywhere in it.
