@@ -221,10 +221,9 @@ mod tests {
     use crate::study::recipe::Way;
     use crate::world::World;
 
-    /// Replicates and pixels of pilots.
+    /// Replicates and pixels of pilots, and the variance of a sample of path tracing.
     const REPLICATES: f64 = 16.0;
     const PIXELS: f64 = 256.0;
-    /// Variance of a sample of path tracing.
     const TRACED: f64 = 0.64;
 
     /// Curves of cost and error like those of a small diffuse room, all times `slowness` times as long, and a clock that goes
@@ -346,9 +345,8 @@ mod tests {
                 let mut lab = Curves::new(slowness, 1.0);
                 let (winner, now) = race(&mut lab, *targets);
                 let whole = now + winner.forecast.picture_seconds(targets, now);
-                let traced = ErrorParts { noise: TRACED, ..ErrorParts::default() };
-                let traced = Forecast { parts: traced, sample_seconds: 0.01 * slowness };
-                let traced = traced.picture_seconds(targets, 0.0);
+                let parts = ErrorParts { noise: TRACED, ..ErrorParts::default() };
+                let traced = Forecast { parts, sample_seconds: 0.01 * slowness }.picture_seconds(targets, 0.0);
                 let search = now - winner.light_seconds;
                 // However little is wanted, each candidate is looked at once, and the least search is allowed.
                 let least = LEAST + lab.first_round();
