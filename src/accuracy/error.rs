@@ -13,11 +13,17 @@ pub struct Error {
     /// Standard error of `rms`, by what is known of the noise of the reference and, where some points stand for others, by how
     /// their errors differ. Of a method's own noise it says nothing.
     pub uncertainty: f64,
+    /// One-sided 95 % confidence limit of `rms`: the root of the mean square, or of 0 where that came out below, and 1.645 of
+    /// its standard errors, which are taken for normal.
+    pub upper: f64,
     /// The error of the reference itself.
     pub floor: f64,
     /// The part of `rms` that is noise of the method, where it tells how far its numbers scatter.
     pub noise: Option<f64>,
 }
+
+/// Standard errors that a normal number exceeds its mean by in 5 % of all cases.
+const CONFIDENCE: f64 = 1.645;
 
 /// Sums over points and channels.
 #[derive(Default)]
@@ -61,9 +67,12 @@ impl Sums {
         if count == 0.0 || mean <= 0.0 {
             return None;
         }
-        let (rms, uncertainty) = root_of_square((self.squares - self.noise) / count, variance.sqrt() / count);
+        let (square, deviation) = ((self.squares - self.noise) / count, variance.sqrt() / count);
+        let (rms, uncertainty) = root_of_square(square, deviation);
+        let upper = (square.max(0.0) + CONFIDENCE * deviation).sqrt();
         let floor = (self.noise / count).sqrt() / mean;
-        Some(Error { rms: rms / mean, uncertainty: uncertainty / mean, floor, noise: None })
+        let [rms, uncertainty, upper] = [rms, uncertainty, upper].map(|root| root / mean);
+        Some(Error { rms, uncertainty, upper, floor, noise: None })
     }
 }
 
@@ -104,6 +113,26 @@ impl Error {
     #[must_use]
     pub fn with_noise(self, variance: f64, mean: f64) -> Self {
         Self { noise: Some(variance.sqrt() / mean), ..self }
+    }
+
+    /// What the error is surely below, where it cannot be told from none: the mean square is at most as large as its own
+    /// standard error, which is so where the uncertainty of its root is at least as large as the root.
+    pub fn below(&self) -> Option<f64> {
+        (self.uncertainty > 0.0 && self.uncertainty >= self.rms).then_some(self.upper)
+    }
+
+    /// In percent: `1.68 % ± 0.10 %`, or where it cannot be told from none `below 7.10 % (95 % confidence)`.
+    pub fn in_words(&self) -> String {
+        let percent = |share: f64| format!("{:.2} %", 100.0 * share);
+        self.in_words_by(percent, percent)
+    }
+
+    /// The same with another way to write shares, and those that say how uncertain others are.
+    pub fn in_words_by(&self, percent: impl Fn(f64) -> String, uncertain: impl Fn(f64) -> String) -> String {
+        match self.below() {
+            Some(limit) => format!("below {} (95 % confidence)", uncertain(limit)),
+            None => format!("{} ± {}", percent(self.rms), uncertain(self.uncertainty)),
+        }
     }
 
     /// The part of `rms` that more of the same would not take away, where it can be told from the noise.
@@ -157,6 +186,37 @@ mod tests {
             // The mean square is known to the floor's, by 50 points whose channels may be alike.
             assert!(error.uncertainty > 0.3 * (2.0_f64 / 150.0).powf(0.25) / 2.0, "{error:?}");
         }
+    }
+
+    /// Of errors that are there, 95 % are below their limit, and so are those that are not there, which have none to exceed.
+    #[test]
+    fn an_error_behind_noise_is_said_to_be_below_a_limit_that_holds() {
+        let (mut above, mut unseen, runs) = (0, 0, 400);
+        for seed in 0..runs {
+            let error = Error::of(&found(50, 0.05), &truth(50, 0.15, seed)).expect("light");
+            unseen += u32::from(error.below().is_some());
+            above += u32::from(error.upper < 0.05);
+        }
+        // 5 % of 400, with a standard deviation of √(400 · 0.05 · 0.95) = 4.4; channels that are alike make it fewer at most.
+        assert!(above <= 20 + 3 * 5 && unseen > runs as u32 / 2, "{above} {unseen}");
+        let none = Error { rms: 0.0, uncertainty: 0.071, upper: 0.0911, ..Error::default() };
+        assert_eq!((none.below(), none.in_words()), (Some(0.0911), "below 9.11 % (95 % confidence)".to_owned()));
+        let seen = Error { rms: 0.0168, uncertainty: 0.001, upper: 0.0183, ..Error::default() };
+        assert_eq!((seen.below(), seen.in_words()), (None, "1.68 % ± 0.10 %".to_owned()));
+        assert_eq!(Error::default().in_words(), "0.00 % ± 0.00 %");
+    }
+
+    /// A mean square of s ± d: its root is told where s exceeds d, and else the root of s + 1.645 d.
+    #[test]
+    fn a_square_that_is_no_larger_than_its_uncertainty_has_a_limit() {
+        let error = |square: f64| {
+            let mut sums = Sums { squares: 3.0 * square, truth: 3.0, ..Sums::default() };
+            sums.scatter.add(0.0);
+            sums.error(9.0 * 4.0).expect("light").below()
+        };
+        assert_eq!([error(-1.0), error(0.0)], [Some(3.29_f64.sqrt()); 2]);
+        assert!((error(1.9).expect("a limit") - 5.19_f64.sqrt()).abs() < 1e-12);
+        assert_eq!(error(2.1), None);
     }
 
     #[test]

@@ -25,6 +25,7 @@ const DARK: u32 = 512;
 /// scene calls for are in it.
 pub struct PixelTruth {
     places: Arc<[[u32; 2]]>,
+    set: u32,
     replicates: Vec<Pixels>,
     /// Pixels that these stand for, themselves included.
     all: u64,
@@ -42,14 +43,14 @@ impl PixelTruth {
         let sources = Sources { transport, radiosity: None, photons: None };
         let replicate = |index| {
             let image = ImageSettings { samples: ImageSettings::MAX_SAMPLES, ..ImageSettings::default() };
-            let settings = Settings { seed: hash(SEED, set.into(), index), image, ..Settings::default() };
+            let settings = Settings { seed: seed_of(set, index), image, ..Settings::default() };
             Pixels::new(&sources, CameraView::Reference, camera, size, places.clone(), &settings)
                 .expect("path tracing needs no other light")
         };
         let replicates = (0..REPLICATES).map(replicate).collect();
         // Where there are fewer than were looked for, they are all that show anything.
         let all = if places.len() < count { places.len() as u64 } else { u64::from(size[0]) * u64::from(size[1]) };
-        Self { places, replicates, all, radiance: Vec::new(), floor: f64::INFINITY }
+        Self { places, set, replicates, all, radiance: Vec::new(), floor: f64::INFINITY }
     }
 
     /// Column and row of each, from the top left. There is none where nothing but emitters is seen, or nothing.
@@ -107,32 +108,68 @@ impl PixelTruth {
         self.places.iter().map(|[x, y]| radiance[(y * width + x) as usize]).collect()
     }
 
-    /// Of two independent pictures of the same light: the mean square of what they are off by in common, which is the bias, and
-    /// of what each is off by for itself, which is noise. As shares of the squared mean; `None` where nothing is known or there
-    /// is no light.
-    pub fn parts(&self, one: &[Rgb], other: &[Rgb]) -> Option<Parts> {
-        let (mut common, mut apart, mut sum) = (0.0, 0.0, 0.0);
-        for ((one, other), truth) in one.iter().zip(other).zip(&self.radiance) {
-            for (channel, truth) in truth.iter().enumerate() {
-                let [one, other] = [one, other].map(|radiance| f64::from(radiance[channel]));
-                let [off, other_off] = [one, other].map(|radiance| radiance - truth.mean());
-                // Both are held against the same noise of the truth.
-                common += off * other_off - truth.standard_error().powi(2);
-                apart += (one - other).powi(2) / 2.0;
-                sum += truth.mean();
+    /// How many estimates there are, and their seeds: whoever takes its samples by the same ones meets the same places of
+    /// each pixel, so that edges, which both see alike, are no part of what they differ by (common random numbers).
+    pub fn seeds(&self) -> impl Iterator<Item = u64> {
+        (0..REPLICATES).map(|index| seed_of(self.set, index))
+    }
+
+    /// Bias and noise of `pilots`, which show the same pixels by the same seeds, held against the estimates of the truth pair
+    /// by pair; `None` where nothing is known or there is no light.
+    ///
+    /// With D the differences of R independent pairs, (ΣD)² − ΣD² over R (R − 1) is an unbiased estimate of the squared bias
+    /// of a pixel and channel, whatever the noise of both. How far it can be trusted follows from how it scatters over pixels.
+    pub fn parts(&self, pilots: &[Pixels]) -> Option<ErrorParts> {
+        let of_truth: Vec<Vec<Rgb>> = self.replicates.iter().map(Pixels::radiance).collect();
+        let of_pilots: Vec<Vec<Rgb>> = pilots.iter().map(Pixels::radiance).collect();
+        let samples = f64::from(pilots.iter().map(Pixels::samples).min()?);
+        let (mut bias, mut noise) = (Moments::default(), 0.0);
+        for pixel in 0..self.places.len() {
+            let mut square = 0.0;
+            for channel in 0..3 {
+                let (mut differences, mut values) = (Moments::default(), Moments::default());
+                for (pilot, truth) in of_pilots.iter().zip(&of_truth) {
+                    let [value, truth] = [pilot, truth].map(|radiance| f64::from(radiance[pixel][channel]));
+                    differences.add(value - truth);
+                    values.add(value);
+                }
+                square += differences.mean().powi(2) - differences.standard_error().powi(2);
+                noise += samples * values.variance();
             }
+            bias.add(square / 3.0);
         }
-        let count = 3.0 * self.radiance.len() as f64;
-        let square_of_mean = (sum / count).powi(2);
-        let parts = Parts { bias: common / count / square_of_mean, noise: apart / count / square_of_mean };
-        (self.floor.is_finite() && square_of_mean > 0.0).then_some(parts)
+        let square_of_mean = self.mean().powi(2);
+        (self.floor.is_finite() && square_of_mean > 0.0).then(|| ErrorParts {
+            bias: bias.mean() / square_of_mean,
+            bias_deviation: bias.standard_error() / square_of_mean,
+            noise: noise / (3.0 * self.places.len() as f64) / square_of_mean,
+        })
+    }
+
+    /// The same of path tracing that the truth itself is made by: all of it is noise.
+    pub fn own_parts(&self) -> Option<ErrorParts> {
+        self.parts(&self.replicates).map(|parts| ErrorParts { bias: 0.0, bias_deviation: 0.0, ..parts })
+    }
+
+    /// Mean of L over pixels and channels, W/(m²·sr).
+    fn mean(&self) -> f64 {
+        let sum: f64 = self.radiance.iter().flatten().map(Moments::mean).sum();
+        sum / (3.0 * self.radiance.len().max(1) as f64)
     }
 }
 
-/// Mean squares of what a picture is off by. That of the bias is an estimate and may come out below 0.
+fn seed_of(set: u32, index: u64) -> u64 {
+    hash(SEED, set.into(), index)
+}
+
+/// Mean squares of what a picture is off by, as shares of the squared mean light.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Parts {
+pub struct ErrorParts {
+    /// Squared bias, which no number of samples takes away. An estimate: it may come out below 0.
     pub bias: f64,
+    /// Standard error of `bias`.
+    pub bias_deviation: f64,
+    /// Variance of one sample a pixel; of n samples it is n times smaller.
     pub noise: f64,
 }
 
@@ -144,35 +181,62 @@ mod tests {
 
     const SIZE: [u32; 2] = [48, 36];
 
+    /// As many samples of the same pixels by the same seeds.
+    fn pilots(truth: &PixelTruth, view: CameraView) -> Vec<Pixels> {
+        let (sources, camera) = (sources(), camera());
+        let pixels = |seed| {
+            let settings = Settings { seed, ..Settings::default() };
+            Pixels::new(&sources, view, camera, SIZE, truth.places().clone(), &settings).expect("pixels")
+        };
+        let mut pilots: Vec<Pixels> = truth.seeds().map(pixels).collect();
+        for pilot in &mut pilots {
+            (0..truth.samples()).for_each(|_| assert!(pilot.step(&Cancel::default())));
+        }
+        pilots
+    }
+
+    fn world() -> Arc<World> {
+        let scene = Scene::open("furnace").expect("a built-in scene");
+        Arc::new(World::build(scene, &MeshSettings::default(), &Cancel::default()).expect("a world"))
+    }
+
+    fn camera() -> Camera {
+        let world = world();
+        Camera::new(&world.viewpoint, &world.bounds)
+    }
+
+    fn sources() -> Sources {
+        let transport = Arc::new(Transport::new(world(), Switches::default()));
+        Sources { transport, radiosity: None, photons: None }
+    }
+
     /// The furnace's walls send 1 W/m² and reflect a half: L = 2/π everywhere.
     fn furnace() -> PixelTruth {
-        let scene = Scene::open("furnace").expect("a built-in scene");
-        let world = Arc::new(World::build(scene, &MeshSettings::default(), &Cancel::default()).expect("a world"));
-        let mut truth = PixelTruth::new(&world, Camera::new(&world.viewpoint, &world.bounds), SIZE, 400, 0);
+        let mut truth = PixelTruth::new(&world(), camera(), SIZE, 400, 0);
         (0..4).for_each(|_| assert!(truth.refine(&Cancel::default())));
         truth
     }
 
-    /// Light that is off by `bias` everywhere, and by `noise` one way or the other, as shares.
-    fn light(truth: &PixelTruth, bias: f32, noise: f32, seed: u64) -> Vec<Rgb> {
-        let off = |i| if hash(seed, i, 0) & 1 == 0 { noise } else { -noise };
-        let exact = std::f32::consts::FRAC_2_PI;
-        (0..truth.places().len() as u64).map(|i| Rgb::splat(exact * (1.0 + bias + off(i)))).collect()
+    /// Direct light alone leaves 3/2 of the 4/2 that the furnace sends: a quarter is missing everywhere.
+    #[test]
+    fn a_bias_is_found_behind_noise_that_is_larger() {
+        let truth = furnace();
+        let parts = truth.parts(&pilots(&truth, CameraView::RayTraced)).expect("light");
+        assert!((parts.bias - 0.0625).abs() < 5.0 * parts.bias_deviation, "{parts:?}");
+        assert!((1e-6..0.01).contains(&parts.bias_deviation) && parts.noise > 0.0, "{parts:?}");
     }
 
     #[test]
-    fn what_two_pictures_have_in_common_is_bias() {
+    fn the_same_light_has_no_bias_and_its_noise_is_told() {
         let truth = furnace();
-        let parts =
-            |bias, noise| truth.parts(&light(&truth, bias, noise, 1), &light(&truth, bias, noise, 2)).expect("light");
-        // The product of two signs has a deviation of 1, over 400 pixels of 1/20; beside it the noise of the truth.
-        let sure = truth.floor().powi(2) + 0.3 * truth.floor();
-        let biased = parts(0.1, 0.3);
-        assert!((biased.bias - 0.01).abs() < 4.0 * (0.09 + 0.06 + sure) / 20.0, "{biased:?}");
-        // Half of the pairs differ, by twice the noise.
-        assert!((biased.noise - 0.09).abs() < 4.0 * 0.09 / 20.0, "{biased:?}");
-        let exact = parts(0.0, 0.0);
-        assert!(exact.noise == 0.0 && exact.bias.abs() < 4.0 * truth.floor().powi(2) / 20.0, "{exact:?}");
+        let parts = truth.parts(&pilots(&truth, CameraView::Reference)).expect("light");
+        // Pilots that go the very ways of the truth differ by nothing.
+        assert!(parts.bias.abs() < 1e-12 && parts.bias_deviation < 1e-12, "{parts:?}");
+        let own = truth.own_parts().expect("light");
+        assert_eq!((own.bias, own.noise), (0.0, parts.noise));
+        // Noise of n samples in each of R estimates leaves the floor √(noise / (n R)).
+        let floor = (own.noise / (16.0 * f64::from(truth.samples()))).sqrt();
+        assert!((floor / truth.floor() - 1.0).abs() < 1e-6, "{floor} {}", truth.floor());
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Settings that suit a wish, or a study, looked for while the window goes on.
 
 use crate::accuracy::Cache;
-use crate::cli::picture::{Claim, Kept, subject};
+use crate::cli::picture::{QualityReport, TargetMet, TargetsMet, subject};
 use crate::scene::Scene;
 use crate::solution::CameraView;
 use crate::study::{Answer, Choice, Inquiry, Question, State};
@@ -55,36 +55,39 @@ impl Asking {
 
     /// How far off the light is that a view shows itself, and how it was chosen if the settings in force are those that were
     /// found; `None` where that was not measured.
-    pub fn claim(&self, snapshot: &Snapshot, view: View) -> Option<Claim> {
+    pub fn claim(&self, snapshot: &Snapshot, view: View) -> Option<QualityReport> {
         let kind = subject(view).light().filter(|_| shows_light_as_it_is(view))?;
         let track = snapshot.tracks.iter().rfind(|track| track.kind == kind)?;
         let TrackPoint { seconds, error } = *track.points.last()?;
-        let claim = Claim {
+        let quality = QualityReport {
             error_wanted: None,
             error_foreseen: None,
             time_allowed: None,
             error,
             seconds,
-            kept: None,
+            targets: None,
             options: None,
         };
         let answer = self.latest();
-        let Some(Answer { question, state: State::Found(choice) }) = answer.as_deref() else { return Some(claim) };
+        let Some(Answer { question, state: State::Found(choice) }) = answer.as_deref() else { return Some(quality) };
         let found = choice.recipe.settings;
         let is_chosen = choice.recipe.applied_to(&track.settings) == track.settings
             && (found.seed, found.effects) == (track.settings.seed, track.settings.effects);
         if !is_chosen {
-            return Some(claim);
+            return Some(quality);
         }
         // Of what a search takes, only the light that it found is made again here.
-        let is_in_time = question.time().is_none_or(|time| seconds <= time.as_secs_f64());
-        Some(Claim {
+        let targets = TargetsMet {
+            error: question.error().map(|wanted| TargetMet::of_error(wanted, &error)),
+            time: question.time().map(|allowed| TargetMet::of_time(allowed, seconds)),
+        };
+        Some(QualityReport {
             error_wanted: question.error(),
-            error_foreseen: choice.promise.error,
+            error_foreseen: choice.prediction.error,
             time_allowed: question.time(),
-            kept: Some(Kept::of(question.error(), &error, is_in_time)),
+            targets: Some(targets),
             options: Some(choice.recipe.options()),
-            ..claim
+            ..quality
         })
     }
 
@@ -144,7 +147,7 @@ mod tests {
         let (asking, snapshot) = (Asking::new(None), measured(Settings::default(), 0.03));
         for view in [View::Smooth, View::Camera(CameraView::RadiositySpecular)] {
             let claim = asking.claim(&snapshot, view).expect("a claim");
-            assert!(claim.error.rms == 0.03 && claim.kept.is_none() && claim.options.is_none(), "{view:?}");
+            assert!(claim.error.rms == 0.03 && claim.targets.is_none() && claim.options.is_none(), "{view:?}");
         }
         // Rays find a part of the light, or all of it; and of photons nothing was measured.
         for view in [CameraView::RadiosityDirect, CameraView::Reference, CameraView::PhotonRadiance] {
@@ -169,8 +172,12 @@ mod tests {
             assert!(start.elapsed() < Duration::from_secs(300));
         };
         let settings = recipe.applied_to(&Settings::default());
-        let kept = |settings, rms| asking.claim(&measured(settings, rms), View::Smooth).expect("a claim").kept;
-        assert_eq!((kept(settings, 0.1), kept(settings, 0.3)), (Some(Kept::Yes), Some(Kept::No)));
+        let kept = |settings, rms| {
+            let quality = asking.claim(&measured(settings, rms), View::Smooth).expect("a claim");
+            quality.targets.map(|targets| targets.in_words())
+        };
+        assert_eq!(kept(settings, 0.1).as_deref(), Some("error target met"));
+        assert_eq!(kept(settings, 0.3).as_deref(), Some("target missed: 30.0 % > 20.0 %"));
         let effects = Switches { off: Effects::of(&[Effect::Shadows]), ..Switches::default() };
         assert_eq!(kept(Settings { effects, ..settings }, 0.1), None);
         assert_eq!(kept(Settings { seed: 7, ..settings }, 0.1), None);

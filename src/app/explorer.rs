@@ -19,7 +19,7 @@ use super::theme;
 use super::viewport_pane::ViewportPane;
 use super::views::{self, ViewGroup};
 use crate::accuracy::Cache;
-use crate::cli::picture::{self, Claim, Format};
+use crate::cli::picture::{self, Format, QualityReport};
 use crate::hard_cases::cases;
 use crate::methods::Settings;
 use crate::scene::Source;
@@ -320,7 +320,7 @@ impl Explorer {
             return;
         };
         let mut facts = picture::facts(world, light, &self.snapshot.settings, &frame);
-        facts.extend(self.asking.claim(&self.snapshot, frame.view).iter().flat_map(Claim::facts));
+        facts.extend(self.asking.claim(&self.snapshot, frame.view).iter().flat_map(QualityReport::facts));
         let job =
             Job { facts, world: Arc::clone(world), light: light.clone(), frame, samples: request.samples, destination };
         if let Err(reason) = self.pictures.save(job) {

@@ -1,19 +1,16 @@
 //! Budgets: an error that is wanted, a time that is allowed, or both; and how what came of them is told.
 
-use super::picture::{Claim, Kept};
+use super::quality::{QualityReport, TargetMet, TargetsMet, error_json};
 use super::refuse;
 use super::run_options::RunOptions;
 use crate::accuracy::Error;
-use crate::study::{Promise, Recipe};
+use crate::study::{Budget, Prediction, Recipe};
 use serde_json::{Value, json};
 use std::time::{Duration, Instant};
 
-/// Times are kept where they are longer than what was allowed by this share at most.
-const TIME_TOLERANCE: f64 = 0.1;
-
-/// What is asked for.
+/// What is asked of a command.
 #[derive(Clone, Copy, Debug)]
-pub struct Budget {
+pub struct CommandBudget {
     /// As a share of the mean light.
     pub error: Option<f64>,
     /// From the start of the program.
@@ -21,14 +18,14 @@ pub struct Budget {
     start: Instant,
 }
 
-impl Budget {
+impl CommandBudget {
     /// Of a command; `None` where there is none, or `way`, an option, says how light is computed, and time limits it. An error is
     /// in percent. Ends the program, as any other wrong command line does, where options say how light is computed although that
     /// is to be chosen.
     pub fn of(run: &RunOptions, error: Option<f64>, way: Option<&str>) -> Option<Self> {
         let time = run.time();
         if let (Some(way), Some(_)) = (way, error) {
-            refuse(&format!("--error chooses how light is computed: {way} has no place with it"));
+            refuse(&format!("{way} cannot be combined with --error, which chooses how light is computed"));
         }
         let is_chosen = way.is_none() && (error.is_some() || time.is_some());
         if is_chosen && !run.is_plain() {
@@ -40,7 +37,7 @@ impl Budget {
     /// Ends the program because of options that say how light is computed.
     pub fn refuse_choices() -> ! {
         refuse(
-            "--error, and --time without more, choose how light is computed: options that say how have no place with them",
+            "--error, and --time without more, choose how light is computed: options that say how cannot be combined with them",
         )
     }
 
@@ -49,12 +46,17 @@ impl Budget {
     pub fn end(&self, for_the_rest: Duration) -> Option<Instant> {
         self.time.and_then(|time| self.start.checked_add(time)?.checked_sub(for_the_rest))
     }
+
+    /// What is asked of the search.
+    pub fn of_search(&self, for_the_rest: Duration) -> Budget {
+        Budget { error: self.error, end: self.end(for_the_rest) }
+    }
 }
 
 /// What a budget has led to.
 #[derive(Clone)]
-pub struct Account {
-    pub budget: Budget,
+pub struct BudgetOutcome {
+    pub budget: CommandBudget,
     /// How the light was computed.
     pub recipe: Recipe,
     /// The options of the same command that do it again.
@@ -62,19 +64,21 @@ pub struct Account {
     pub error: Error,
     /// Of the solver, and of the picture if there is one.
     pub solver_seconds: f64,
-    pub promise: Promise,
+    pub prediction: Prediction,
 }
 
-impl Account {
+impl BudgetOutcome {
     /// From the start of the program until now.
     fn seconds(&self) -> f64 {
         self.budget.start.elapsed().as_secs_f64()
     }
 
     /// Whether the error and the time are as they were wanted, after so many seconds.
-    fn kept(&self, seconds: f64) -> Kept {
-        let is_in_time = self.budget.time.is_none_or(|time| seconds <= (1.0 + TIME_TOLERANCE) * time.as_secs_f64());
-        Kept::of(self.budget.error, &self.error, is_in_time)
+    fn targets(&self, seconds: f64) -> TargetsMet {
+        TargetsMet {
+            error: self.budget.error.map(|wanted| TargetMet::of_error(wanted, &self.error)),
+            time: self.budget.time.map(|allowed| TargetMet::of_time(allowed, seconds)),
+        }
     }
 
     /// Errors are shares of the mean light. Where only one of error and time was asked for, the other is what was expected when
@@ -83,42 +87,43 @@ impl Account {
         let seconds = self.seconds();
         let wanted_seconds = self.budget.time.map(|time| time.as_secs_f64());
         report["promised"] = json!({
-            "error": self.budget.error.or(self.promise.error),
-            "seconds": wanted_seconds.or(self.promise.seconds),
+            "error": self.budget.error.or(self.prediction.error),
+            "seconds": wanted_seconds.or(self.prediction.seconds),
         });
         report["achieved"] = json!({
-            "error": self.error.rms,
-            "error_uncertainty": self.error.uncertainty,
             "seconds": if wanted_seconds.is_some() { seconds } else { self.solver_seconds },
             "solver_seconds": self.solver_seconds,
         });
+        for (name, value) in error_json(&self.error) {
+            report["achieved"][name] = value;
+        }
         let mut chosen = json!({ "method": self.recipe.way, "options": self.options });
         for (knob, setting) in self.recipe.knobs() {
             chosen["settings"][knob.option().trim_start_matches("--")] = json!(setting);
         }
         report["chosen"] = chosen;
-        report["kept"] = json!(self.kept(seconds).known());
+        report["kept"] = self.targets(seconds).json();
     }
 
     /// What was wanted, what came of it, and whether that is as it should be, line by line.
     pub fn text(&self) -> String {
         let seconds = self.seconds();
-        let claim = self.claim();
-        let kept = self.kept(seconds).sentence();
-        let (promised, achieved) = (claim.promised(), claim.achieved());
+        let quality = self.quality();
+        let kept = self.targets(seconds).in_words();
+        let (promised, achieved) = (quality.promised(), quality.achieved());
         let chosen = &self.options;
         format!("  promised: {promised}\n  achieved: {achieved}, {seconds:.2} s in all: {kept}\n  chosen: {chosen}\n")
     }
 
     /// The same for a picture, as it stands before that is written.
-    pub fn claim(&self) -> Claim {
-        Claim {
+    pub fn quality(&self) -> QualityReport {
+        QualityReport {
             error_wanted: self.budget.error,
-            error_foreseen: self.promise.error,
+            error_foreseen: self.prediction.error,
             time_allowed: self.budget.time,
             error: self.error,
             seconds: self.solver_seconds,
-            kept: Some(self.kept(self.seconds())),
+            targets: Some(self.targets(self.seconds())),
             options: Some(self.options.clone()),
         }
     }

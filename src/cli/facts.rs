@@ -1,6 +1,6 @@
 //! What a picture says of itself in its file: how it was made, so that it can be made again.
 
-use crate::accuracy::Error;
+use super::quality::percent;
 use crate::choice::Choice;
 use crate::effects::Effect;
 use crate::methods::{OcclusionSettings, Settings};
@@ -19,111 +19,6 @@ impl Facts {
     fn add(&mut self, name: &str, value: impl ToString) {
         self.0.push((name.to_owned(), value.to_string()));
     }
-}
-
-/// What light was to be, what came of it, and how it was computed.
-pub struct Claim {
-    /// As a share of the mean light.
-    pub error_wanted: Option<f64>,
-    /// What was expected when the way was chosen, if that was anything.
-    pub error_foreseen: Option<f64>,
-    /// From the start of the program, or of the search.
-    pub time_allowed: Option<Duration>,
-    pub error: Error,
-    /// Of the solver, and of the picture if the error is that of a picture.
-    pub seconds: f64,
-    /// Where something was promised.
-    pub kept: Option<Kept>,
-    /// The options that do it again, where it was chosen.
-    pub options: Option<String>,
-}
-
-/// Whether a promise was kept.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kept {
-    Yes,
-    No,
-    /// The truth is known too badly to say.
-    Unknown,
-}
-
-impl Kept {
-    /// Share of an error that is wanted by which the one that came of it may be uncertain.
-    const SURE: f64 = 0.5;
-
-    /// Of an error that was wanted, if one was, and a time.
-    pub fn of(wanted: Option<f64>, error: &Error, is_in_time: bool) -> Self {
-        match wanted {
-            _ if !is_in_time => Self::No,
-            Some(wanted) if error.rms > wanted => Self::No,
-            Some(wanted) if error.uncertainty > Self::SURE * wanted => Self::Unknown,
-            _ => Self::Yes,
-        }
-    }
-
-    /// `None` where it is not known.
-    pub fn known(self) -> Option<bool> {
-        match self {
-            Self::Yes => Some(true),
-            Self::No => Some(false),
-            Self::Unknown => None,
-        }
-    }
-
-    pub fn sentence(self) -> &'static str {
-        match self {
-            Self::Yes => "the promise was kept",
-            Self::No => "THE PROMISE WAS NOT KEPT",
-            Self::Unknown => "THE REFERENCE IS TOO NOISY TO TELL WHETHER THE PROMISE WAS KEPT",
-        }
-    }
-
-    fn word(self) -> &'static str {
-        match self {
-            Self::Yes => "yes",
-            Self::No => "no",
-            Self::Unknown => "the reference is too noisy to tell",
-        }
-    }
-}
-
-impl Claim {
-    /// What was asked for, and what was expected of the rest; empty where nothing was asked for.
-    pub fn promised(&self) -> String {
-        let foreseen = |error| format!("an error of {} foreseen", percent(error));
-        let wanted = [
-            self.error_wanted.map(|error| format!("an error of {}", percent(error))),
-            self.time_allowed.map(|time| format!("{:.2} s in all", time.as_secs_f64())),
-            self.time_allowed.and(self.error_foreseen).filter(|_| self.error_wanted.is_none()).map(foreseen),
-        ];
-        wanted.into_iter().flatten().collect::<Vec<String>>().join(", ")
-    }
-
-    pub fn achieved(&self) -> String {
-        let [error, uncertainty] = [self.error.rms, self.error.uncertainty].map(percent);
-        format!("an error of {error} ± {uncertainty} in {:.3} s of the solver", self.seconds)
-    }
-
-    /// As names and values.
-    pub fn facts(&self) -> Vec<(String, String)> {
-        let mut facts = Facts::default();
-        let promised = self.promised();
-        if !promised.is_empty() {
-            facts.add("Promised", promised);
-        }
-        facts.add("Achieved", self.achieved());
-        if let Some(kept) = self.kept {
-            facts.add("Kept", kept.word());
-        }
-        if let Some(options) = &self.options {
-            facts.add("Chosen", options);
-        }
-        facts.0
-    }
-}
-
-fn percent(share: f64) -> String {
-    format!("{:.2} %", 100.0 * share)
 }
 
 /// Whose work a view shows.
@@ -296,19 +191,4 @@ impl Facts {
 
 fn seconds(time: Duration) -> String {
     format!("{:.3}", time.as_secs_f64())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_promise_is_kept_where_that_is_known() {
-        let error = |rms, uncertainty| Error { rms, uncertainty, ..Error::default() };
-        assert_eq!(Kept::of(Some(0.05), &error(0.04, 0.01), true), Kept::Yes);
-        assert_eq!(Kept::of(Some(0.05), &error(0.06, 0.01), true), Kept::No);
-        assert_eq!(Kept::of(Some(0.05), &error(0.04, 0.01), false), Kept::No);
-        assert_eq!(Kept::of(Some(0.05), &error(0.0, 0.1), true), Kept::Unknown);
-        assert_eq!(Kept::of(None, &error(0.4, 0.3), true), Kept::Yes);
-    }
 }

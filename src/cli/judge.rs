@@ -1,6 +1,7 @@
 //! How far light is off: what a method found, held against the truth.
 
 use super::CliError;
+use super::quality::{error_json, percent};
 use super::run_options::Solved;
 use super::tracing::Tracing;
 use crate::accuracy::{Cache, Error, Found, ProbePoint, Reference, by_photons, by_radiosity};
@@ -81,25 +82,32 @@ impl Verdict {
     /// Errors are shares of the mean irradiance.
     pub fn json(&self) -> Value {
         let error = self.error.as_ref();
-        json!({
-            "error": error.map(|error| error.rms),
-            "error_uncertainty": error.map(|error| error.uncertainty),
+        let mut report = json!({
+            "error": null,
+            "error_uncertainty": null,
+            "error_below_percent": null,
             "noise": error.and_then(|error| error.noise),
             "bias": error.and_then(Error::bias),
             "floor": error.map(|error| error.floor),
             "points": self.points,
             "paths": self.paths,
-        })
+        });
+        for (name, value) in error.map(error_json).into_iter().flatten() {
+            report[name] = value;
+        }
+        report
     }
 
     pub fn text(&self) -> String {
-        let Some(Error { rms, uncertainty, floor, .. }) = self.error else {
+        let Some(error) = &self.error else {
             return "  error: there is no light to compare\n".to_owned();
         };
-        let [rms, uncertainty, floor] = [rms, uncertainty, floor].map(|share| 100.0 * share);
         format!(
-            "  error {rms:.2} % ± {uncertainty:.2} % of the mean irradiance at {} points (reference: {} paths each, {floor:.2} %)\n",
-            self.points, self.paths
+            "  error {} of the mean irradiance at {} points (reference: {} paths each, {})\n",
+            error.in_words(),
+            self.points,
+            self.paths,
+            percent(error.floor),
         )
     }
 }

@@ -14,6 +14,8 @@ mod photon_options;
 pub mod picture;
 mod plan;
 mod probe;
+mod progress_line;
+mod quality;
 mod render;
 mod run_options;
 mod scenes;

@@ -1,7 +1,8 @@
 //! Pictures as files, with what is needed to make them again.
 
 use super::CliError;
-pub use super::facts::{Claim, Kept, diagram_facts, facts, subject};
+pub use super::facts::{diagram_facts, facts, subject};
+pub use super::quality::{QualityReport, TargetMet, TargetsMet};
 use crate::viewport::Picture;
 use exr::image::write::WritableImage;
 use exr::image::{Image, SpecificChannels};

@@ -1,6 +1,6 @@
 //! `lightwell solve`: where the light went.
 
-use super::budget::Budget;
+use super::budget::CommandBudget;
 use super::judge::Judge;
 use super::photon_options::{LightMethod, PhotonOptions};
 use super::run_options::{RunOptions, Solved};
@@ -11,7 +11,7 @@ use crate::choice::{Choice, parse};
 use crate::math::rgb::total;
 use crate::methods::Settings;
 use crate::solution::{PhotonSolution, Solution};
-use crate::study::Light;
+use crate::study::{Light, NotFound};
 use crate::worker::Subject;
 use crate::world::World;
 use serde_json::{Value, json};
@@ -25,7 +25,8 @@ pub struct Options {
     #[arg(long, value_name = "METHOD", value_parser = parse::<LightMethod>)]
     method: Option<LightMethod>,
     /// Choose the method and its settings: the cheapest whose error is at most this share of the mean irradiance. With --time
-    /// instead, and no --method, the most accurate within this time in all
+    /// instead, and no --method, the most accurate within this time in all; with both, the same, but no longer than the error
+    /// takes
     #[arg(long, value_name = "PERCENT", conflicts_with_all = ["steps", "converge"], value_parser = values::percent)]
     error: Option<f64>,
     #[command(flatten)]
@@ -41,12 +42,18 @@ pub struct Options {
 
 pub fn run(options: &Options) -> Result<(), CliError> {
     let way = options.method.map(|method| format!("--method {}", method.name()));
-    let (report, text) = match Budget::of(&options.run, options.error, way.as_deref()) {
+    let (report, text) = match CommandBudget::of(&options.run, options.error, way.as_deref()) {
         Some(budget) => {
             if let Some(option) = options.photons.given() {
                 refuse(&format!("{option} says how light is computed: --method photon-map goes with it"));
             }
-            solve_within(&budget, &options.run)?
+            match solve_within(&budget, &options.run) {
+                Err(CliError::NotFound(reason @ (NotFound::Unlit | NotFound::DarkPoints))) => {
+                    eprintln!("warning: {reason}; solved by radiosity, without an error");
+                    solve_by(options)?
+                }
+                result => result?,
+            }
         }
         None => solve_by(options)?,
     };
@@ -60,7 +67,7 @@ pub fn run(options: &Options) -> Result<(), CliError> {
 }
 
 /// By the method and the settings that a budget leads to.
-fn solve_within(budget: &Budget, run: &RunOptions) -> Result<(Value, String), CliError> {
+fn solve_within(budget: &CommandBudget, run: &RunOptions) -> Result<(Value, String), CliError> {
     let found = light_for(budget, run)?;
     let (mut told, mut words) = match &found.light {
         Light::Radiosity(world, solution) => {

@@ -160,6 +160,7 @@ impl Trial<'_> {
         let mut reading = Duration::ZERO;
         let mut rays = 0;
         let passes = if settings.photons.is_progressive { settings.photons.passes } else { 1 };
+        let mut next = 1;
         for pass in 1..=passes {
             if !trace_pass(&mut run, self.end, self.cancel) {
                 return Ok(());
@@ -177,9 +178,10 @@ impl Trial<'_> {
             reading += start.elapsed();
             let solution = run.solution();
             rays += solution.counters.rays;
-            if !pass.is_power_of_two() && pass != passes {
+            if pass < next && pass != passes {
                 continue;
             }
+            next = (PACE * f64::from(pass)).ceil() as u32;
             let photons = PhotonSettings { passes: pass, ..settings.photons };
             let price = self.price(run.elapsed() + reading, rays, bytes_of_photons(&maps));
             let verdict = (self.note)(Outcome {

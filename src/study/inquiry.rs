@@ -1,9 +1,11 @@
 //! A search for settings, or a study, on a thread of its own.
 
 use super::bench::Bench;
+use super::budget::{Budget, Prediction};
 use super::not_found::NotFound;
+use super::progress::SearchProgress;
 use super::recipe::Recipe;
-use super::seek::{Goal, Promise, Sought, seek};
+use super::seek::{SearchResult, seek};
 use super::sweep::{Progress, Study, study};
 use crate::accuracy::{Cache, Error};
 use crate::cancel::Cancel;
@@ -65,7 +67,7 @@ pub struct Choice {
     pub error: Error,
     /// Of the solver.
     pub seconds: f64,
-    pub promise: Promise,
+    pub prediction: Prediction,
 }
 
 impl Answer {
@@ -112,15 +114,22 @@ fn answer(question: Question, world: &World, settings: &Settings, cache: Option<
         Err(reason) => return State::Failed(with_causes(&reason)),
     };
     let mut bench = Bench::open(opened, mesh, cache);
-    let tell = |doing: String| desk.publish(Answer { question, state: State::Doing(doing) });
+    let mut told = String::new();
+    // Every word wakes the window: the same one only once.
+    let mut tell = |doing: String| {
+        if doing != told {
+            desk.publish(Answer { question, state: State::Doing(doing.clone()) });
+            told = doing;
+        }
+    };
     let state = match question {
         Question::Error(error) => {
-            tell("trying".to_owned());
-            sought(&mut bench, settings, &Goal { error: Some(error), end: None }, &desk.cancel)
+            let budget = Budget { error: Some(error), end: None };
+            found(&mut bench, settings, &budget, &desk.cancel, &mut |progress| tell(progress.to_string()))
         }
         Question::Time(time) => {
-            tell("trying".to_owned());
-            sought(&mut bench, settings, &Goal { error: None, end: Some(start + time) }, &desk.cancel)
+            let budget = Budget { error: None, end: Some(start + time) };
+            found(&mut bench, settings, &budget, &desk.cancel, &mut |progress| tell(progress.to_string()))
         }
         Question::Study(budget) => {
             let span = [start, start + budget];
@@ -147,13 +156,19 @@ fn answer(question: Question, world: &World, settings: &Settings, cache: Option<
     state
 }
 
-fn sought(bench: &mut Bench, settings: &Settings, goal: &Goal, cancel: &Cancel) -> State {
-    match seek(bench, settings, goal, cancel) {
-        Ok(Sought { outcome, error, promise }) => {
+fn found(
+    bench: &mut Bench,
+    settings: &Settings,
+    budget: &Budget,
+    cancel: &Cancel,
+    tell: &mut dyn FnMut(&SearchProgress),
+) -> State {
+    match seek(bench, settings, budget, cancel, tell) {
+        Ok(SearchResult { outcome, error, prediction }) => {
             let seconds = outcome.price.seconds;
-            State::Found(Arc::new(Choice { recipe: outcome.recipe, error, seconds, promise }))
+            State::Found(Arc::new(Choice { recipe: outcome.recipe, error, seconds, prediction }))
         }
-        Err(NotFound::Dark) => State::Dark,
+        Err(NotFound::Dark | NotFound::Unlit | NotFound::DarkPoints) => State::Dark,
         Err(reason) => State::Failed(with_causes(&reason)),
     }
 }

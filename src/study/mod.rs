@@ -2,12 +2,15 @@
 
 mod attempt;
 mod bench;
+mod budget;
+mod family;
 mod inquiry;
 mod knob;
 mod lit;
 mod memory;
 mod not_found;
 mod picture;
+mod progress;
 mod recipe;
 mod seek;
 mod sweep;
@@ -15,13 +18,15 @@ mod worlds;
 
 pub use attempt::{CannotTry, Outcome, Price, Verdict, attempt};
 pub use bench::Bench;
+pub use budget::{Budget, Prediction};
 pub use inquiry::{Answer, Choice, Inquiry, Question, State};
 pub use knob::{Gain, Knob, Setting, Turn, gains};
 pub use lit::Light;
 pub use memory::{Known, Memory};
 pub use not_found::NotFound;
-pub use picture::{PictureGoal, Pictured, picture};
+pub use picture::{PictureRequest, PictureResult, picture};
+pub use progress::SearchProgress;
 pub use recipe::{Recipe, Way};
-pub use seek::{Goal, Promise, Sought, seek};
+pub use seek::{SearchResult, seek};
 pub use sweep::{Measured, Progress, Study, study};
 pub use worlds::Worlds;

@@ -206,6 +206,17 @@ impl Recipe {
         }
     }
 
+    /// The way, and with which solver if that is not the one that the program takes by itself.
+    pub fn way_in_words(&self) -> String {
+        let solver = self.settings.solver;
+        match self.way {
+            Way::Radiosity | Way::RadiosityDirect if solver != Settings::default().solver => {
+                format!("{} ({})", self.way.name(), solver.name())
+            }
+            way => way.name().to_owned(),
+        }
+    }
+
     /// What it is called, in a few words: what is not as in other recipes is said by the caller.
     pub fn label(&self) -> String {
         let told = self.knobs().into_iter().filter(|(_, setting)| *setting != Setting::Automatic);

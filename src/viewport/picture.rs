@@ -48,11 +48,13 @@ pub fn render_picture(
     check_size(gpu, frame.size)?;
     gpu.check()?;
     let mut viewport = Viewport::new(gpu, FINISHED);
-    viewport.set_world(world);
+    // A picture by rays has its pixels already: nothing of the world is drawn, however large that is.
     viewport.set_light(light);
     if let Some(image) = viewport.take_image(frame) {
         return viewport.finish(&image);
     }
+    viewport.set_world(world);
+    viewport.set_light(light);
     let draws = samples.div_ceil(SAMPLES).max(1);
     let mut sum = Sum::new(frame.size);
     for draw in 0..draws {

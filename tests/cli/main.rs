@@ -62,6 +62,11 @@ fn json(folder: &TempDir, arguments: &str) -> Value {
     serde_json::from_str(&text).unwrap_or_else(|error| panic!("{error}: {text}"))
 }
 
+/// The error that was achieved, or what it is surely below where it cannot be told from none.
+fn error_or_limit(achieved: &Value) -> f64 {
+    achieved["error"].as_f64().unwrap_or_else(|| number(&achieved["error_below_percent"]) / 100.0)
+}
+
 /// The message of a call that must fail with this exit code and print nothing else.
 fn refusal(folder: &TempDir, arguments: &str, code: i32) -> String {
     let output = run(folder, arguments);

@@ -1,7 +1,8 @@
 //! Pictures for an error that is wanted, or a time that is allowed; and the error as a picture.
 
 use crate::rendering::{attributes, can_draw, radiances, texts};
-use crate::{assert_contains, folder, json, keys, number, printed, program, refusal, write_dark_scene};
+use crate::{assert_contains, error_or_limit, folder, json, keys, number, printed, program, refusal, write_dark_scene};
+use serde_json::json;
 use tempfile::TempDir;
 
 const SIZE: &str = "--size 80x60";
@@ -33,8 +34,11 @@ fn a_picture_for_an_error_has_it_and_says_how_to_make_it_again() {
     }
     let folder = folder();
     let report = json(&folder, &format!("render empty-box -o box.exr {SIZE} --error 4 --seed 3 --json"));
-    assert_eq!((&report["promised"]["error"], &report["kept"]), (&0.04.into(), &true.into()), "{report}");
-    assert_eq!(keys(&report["achieved"]), ["error", "error_uncertainty", "seconds", "solver_seconds"]);
+    assert_eq!((&report["promised"]["error"], &report["kept"]), (&0.04.into(), &json!({ "error": true })), "{report}");
+    assert_eq!(
+        keys(&report["achieved"]),
+        ["error", "error_below_percent", "error_uncertainty", "seconds", "solver_seconds"]
+    );
     let achieved = number(&report["achieved"]["error"]);
     assert!(achieved <= 0.04, "{report}");
     // The same picture, to the bit, on any number of threads.
@@ -45,16 +49,16 @@ fn a_picture_for_an_error_has_it_and_says_how_to_make_it_again() {
     assert!(radiances(&folder, "again.exr") == radiances(&folder, "box.exr"), "{options}");
     // A PNG says the same of itself.
     let text = printed(&folder, &format!("render empty-box -o box.png {SIZE} --error 4 --seed 3"));
-    assert_contains(&text, &["promised: an error of 4.00 %", "the promise was kept", "chosen: --view "]);
+    assert_contains(&text, &["promised: an error of 4.00 %", "error target met", "chosen: --view "]);
     let facts = texts(&folder, "box.png");
     assert_contains(&facts["Promised"], &["an error of 4.00 %"]);
     assert_contains(&facts["Chosen"], &["--view ", "--samples "]);
     assert_contains(&facts["Achieved"], &["an error of ", "of the solver"]);
-    assert_eq!(facts["Kept"], "yes");
+    assert_eq!(facts["Kept"], "error target met");
     // And so does an EXR.
     let attributes = attributes(&folder, "box.exr");
     assert_contains(&attributes["Promised"], &["an error of 4.00 %"]);
-    assert_eq!((attributes["Scene"].as_str(), attributes["Kept"].as_str()), ("empty-box", "yes"));
+    assert_eq!((attributes["Scene"].as_str(), attributes["Kept"].as_str()), ("empty-box", "error target met"));
 }
 
 #[test]
@@ -72,7 +76,11 @@ fn the_error_that_a_picture_is_said_to_have_is_the_one_that_it_has() {
         println!("{scene} {options}: {found:.4}, said to be {achieved}");
         // Three standard errors of the smaller of two estimates of the uncertainty, which is itself known to a third.
         let tolerance = 4.0 * number(&achieved["error_uncertainty"]);
-        assert!((number(&achieved["error"]) - found).abs() < tolerance, "{scene} {options}: {found}, not {report}");
+        let is_so = match achieved["error_below_percent"].as_f64() {
+            Some(limit) => 100.0 * found < limit + 100.0 * tolerance,
+            None => (number(&achieved["error"]) - found).abs() < tolerance,
+        };
+        assert!(is_so, "{scene} {options}: {found}, not {report}");
     }
 }
 
@@ -83,10 +91,11 @@ fn a_picture_for_a_time_tells_of_it_and_can_be_made_again() {
     }
     let folder = folder();
     let report = json(&folder, "render cornell-box -o box.exr --size 200x200 --time 3 --json");
-    assert_eq!(report["promised"]["seconds"], 3.0, "{report}");
-    // However fast the machine is, it is said truly whether the time was kept.
-    assert_eq!(report["kept"], number(&report["achieved"]["seconds"]) <= 3.3, "{report}");
-    assert!(number(&report["achieved"]["error"]) > 0.0, "{report}");
+    // It ends with a whole sample of every pixel: the last one before the time is up, which the report knows of.
+    let seconds = number(&report["achieved"]["seconds"]);
+    assert!(seconds > 2.5, "{seconds}");
+    assert_eq!((&report["promised"]["seconds"], &report["kept"]), (&3.0.into(), &json!({ "time": seconds <= 3.15 })));
+    assert!(number(&report["achieved"]["error_uncertainty"]) > 0.0, "{report}");
     let options = report["chosen"]["options"].as_str().expect("text");
     printed(&folder, &format!("render cornell-box -o again.exr --size 200x200 {options}"));
     assert!(radiances(&folder, "again.exr") == radiances(&folder, "box.exr"), "{options}");
@@ -100,13 +109,13 @@ fn a_promise_that_cannot_be_kept_is_told_as_broken() {
     let folder = folder();
     // Ambient light is another light than that between surfaces, however many rays look for it.
     let command = format!("render cornell-box -o box.png {SIZE} --error 2 --view diffuse-ao");
-    assert_contains(&printed(&folder, &command), &["promised: an error of 2.00 %", "THE PROMISE WAS NOT KEPT"]);
-    assert_eq!(texts(&folder, "box.png")["Kept"], "no");
+    assert_contains(&printed(&folder, &command), &["promised: an error of 2.00 %", "target missed: "]);
+    assert_contains(&texts(&folder, "box.png")["Kept"], &["target missed: ", "% > 2.0 %"]);
     // In so short a time nothing is as good as that. What there is time for is made, and what is known of it is told.
     let report = json(&folder, &format!("render cornell-box -o box.png {SIZE} --error 0.2 --time 1.5 --json"));
-    assert!(report["kept"] != true, "{report}");
+    assert!(report["kept"]["error"] != true, "{report}");
     let achieved = &report["achieved"];
-    assert!(number(&achieved["error"]) + number(&achieved["error_uncertainty"]) > 0.002, "{report}");
+    assert!(error_or_limit(achieved) > 0.002, "{report}");
 }
 
 #[test]
@@ -121,7 +130,8 @@ fn pictures_of_little_are_judged_by_what_they_show() {
     let far = "--eye 0.278,0.273,-25 --size 160x120 --error 10 --json";
     let report = json(&folder, &format!("render cornell-box -o far.exr {far}"));
     // Nearly all of them were looked at: nothing but the reference's noise is uncertain.
-    let [error, uncertainty] = ["error", "error_uncertainty"].map(|name| number(&report["achieved"][name]));
+    let achieved = &report["achieved"];
+    let (error, uncertainty) = (error_or_limit(achieved), number(&achieved["error_uncertainty"]));
     assert!(error > 0.0 && error < 0.1 + 3.0 * uncertainty && uncertainty < 0.02, "{report}");
     let nothing = refusal(&folder, "render cornell-box -o none.png --eye 9,9,9 --target 99,99,99 --error 5", 1);
     assert_contains(&nothing, &["no light"]);
@@ -148,7 +158,7 @@ fn a_budget_for_a_picture_goes_with_nothing_that_it_is_to_choose() {
 fn points_are_measured_for_a_budget() {
     let folder = folder();
     let report = json(&folder, "probe cornell-box --spread 100 --error 3 --json");
-    assert_eq!((&report["promised"]["error"], &report["kept"]), (&0.03.into(), &true.into()));
+    assert_eq!((&report["promised"]["error"], &report["kept"]), (&0.03.into(), &json!({ "error": true })));
     let points = report["points"].as_array().expect("a list");
     let (mut square, mut mean) = (0.0, 0.0);
     for point in points {
@@ -168,8 +178,10 @@ fn points_are_measured_for_a_budget() {
     let options = report["chosen"]["options"].as_str().expect("text");
     assert_eq!(json(&folder, &format!("probe cornell-box --spread 100 --json {options}"))["points"], report["points"]);
     let report = json(&folder, "probe cornell-box --spread 100 --time 1 --json");
-    // However fast the machine is, it is said truly whether the time was kept.
-    assert_eq!(report["kept"], number(&report["achieved"]["seconds"]) <= 1.1);
+    // On a machine that is busy otherwise it may take longer, which the report knows of.
+    let seconds = number(&report["achieved"]["seconds"]);
+    assert!(seconds > 0.9, "{seconds}");
+    assert_eq!(report["kept"]["time"], seconds <= 1.05);
     let refused = |options: &str, parts: &[&str]| {
         assert_contains(&refusal(&folder, &format!("probe furnace --spread 5 {options}"), 2), parts);
     };

@@ -10,7 +10,7 @@ use lightwell::app::action::Action;
 use lightwell::app::model::{LowerPanel, Theme};
 use lightwell::app::wish::Wish;
 use lightwell::methods::Settings;
-use lightwell::study::{Answer, Choice, Measured, Price, Promise, Question, Recipe, State, Study, Way};
+use lightwell::study::{Answer, Choice, Measured, Prediction, Price, Question, Recipe, State, Study, Way};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -24,10 +24,10 @@ fn answered(state: State) -> Option<Answer> {
 }
 
 fn found(rms: f64) -> Option<Answer> {
-    let error = Error { rms, uncertainty: 0.001, floor: 0.01, noise: None };
+    let error = Error { rms, uncertainty: 0.001, upper: rms + 0.0017, floor: 0.01, noise: None };
     let recipe = Recipe { way: Way::PhotonMap, settings: Settings::default() };
-    let promise = Promise { error: None, seconds: None };
-    answered(State::Found(Arc::new(Choice { recipe, error, seconds: 0.5, promise })))
+    let prediction = Prediction { error: None, seconds: None };
+    answered(State::Found(Arc::new(Choice { recipe, error, seconds: 0.5, prediction })))
 }
 
 #[test]
@@ -61,9 +61,9 @@ fn wishes_are_asked_for_by_buttons_and_answered_in_words() {
     let busy = Stage { answer: answered(State::Doing("3 of 9: Radiosity".to_owned())), ..opened() };
     assert_eq!(click(busy, "Stop"), [Action::StopInquiry]);
     let kept = Stage { answer: found(0.045), ..opened() }.window(LARGE);
-    kept.get_by_label_contains("4.50\u{2009}% ± 0.1\u{2009}% in 500\u{2009}ms by Photon map");
+    kept.get_by_label_contains("error target met: error 4.50\u{2009}% ± 0.1\u{2009}% in 500\u{2009}ms by Photon map");
     let missed = Stage { answer: found(0.06), ..opened() }.window(LARGE);
-    missed.get_by_label_contains("not reached: 6.00\u{2009}%");
+    missed.get_by_label_contains("target missed: 6.0 % > 5.0 %: error 6.00\u{2009}% ±");
     let failed = Stage { answer: answered(State::Failed("a fault of the program".to_owned())), ..opened() };
     failed.window(LARGE).get_by_label("It stopped: a fault of the program");
 }

@@ -118,7 +118,10 @@ pub fn tracks() -> Vec<Arc<Track>> {
     let track = |number, kind, error: fn(f64) -> f64| {
         let point = |k: i32| {
             let seconds = 0.01 * 2_f64.powi(k);
-            TrackPoint { seconds, error: Error { rms: error(seconds), uncertainty: 0.001, floor: 0.004, noise: None } }
+            TrackPoint {
+                seconds,
+                error: Error { rms: error(seconds), uncertainty: 0.001, floor: 0.004, ..Error::default() },
+            }
         };
         Arc::new(Track { number, kind, settings: Settings::default(), points: (0..9).map(point).collect() })
     };

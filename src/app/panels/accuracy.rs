@@ -10,7 +10,7 @@ use crate::app::model::Model;
 use crate::app::theme::{Palette, UNIT};
 use crate::app::wish::Wish;
 use crate::choice::Choice as _;
-use crate::cli::picture::Kept;
+use crate::cli::picture::{TargetMet, TargetsMet};
 use crate::methods::Settings;
 use crate::study::{Answer, Choice, Measured, Question, State, Study, Way};
 use crate::worker::{Track, TrackPoint};
@@ -81,22 +81,21 @@ fn tell(ui: &mut Ui, answer: &Answer, actions: &mut Vec<Action>) {
         }
         State::Found(choice) => in_words(answer.question, choice),
         State::Studied(_) => "Studied: runs, and the front that none beats".to_owned(),
-        State::Dark => "There is no light to measure".to_owned(),
+        State::Dark => "No light arrives at any surface: there is no error to measure".to_owned(),
         State::Failed(reason) => format!("It stopped: {reason}"),
     };
     ui.add(Label::new(RichText::new(&text).small()).truncate()).on_hover_text(text);
 }
 
-/// What was promised and what came of it, with a plain word where that was not kept.
+/// What came of it, and whether that is what was wanted.
 fn in_words(question: Question, choice: &Choice) -> String {
     let Choice { recipe, error, seconds, .. } = choice;
-    let kept = match Kept::of(question.error(), error, true) {
-        Kept::Yes => "",
-        Kept::No => "not reached: ",
-        Kept::Unknown => "not certain: ",
+    let targets = TargetsMet {
+        error: question.error().map(|wanted| TargetMet::of_error(wanted, error)),
+        time: question.time().map(|allowed| TargetMet::of_time(allowed, *seconds)),
     };
-    let (error, uncertainty) = (format::percent(error.rms), format::percent_short(error.uncertainty));
-    format!("{kept}{error} ± {uncertainty} in {} by {}", format::si(*seconds, "s"), recipe.label())
+    let error = error.in_words_by(format::percent, format::percent_short);
+    format!("{}: error {error} in {} by {}", targets.in_words(), format::si(*seconds, "s"), recipe.label())
 }
 
 pub fn show(ui: &mut Ui, model: &Model, actions: &mut Vec<Action>) {

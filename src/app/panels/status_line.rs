@@ -52,13 +52,16 @@ fn error(ui: &mut Ui, model: &Model) {
     let track = model.tracks.iter().rfind(|track| Some(track.kind) == model.light());
     let Some(TrackPoint { seconds, error }) = track.and_then(|track| track.points.last()) else { return };
     let hover = format!(
-        "Root mean square error of the irradiance at points spread over all surfaces, as a share of its mean: {} ± {} after \
+        "Root mean square error of the irradiance at points spread over all surfaces, as a share of its mean: {} after \
          {}, against a path-traced reference",
-        format::percent(error.rms),
-        format::percent_short(error.uncertainty),
+        error.in_words_by(format::percent, format::percent_short),
         format::si(*seconds, "s"),
     );
-    item(ui, format!("error {}", format::percent(error.rms)), &hover);
+    let short = match error.below() {
+        Some(limit) => format!("error below {}", format::percent_short(limit)),
+        None => format!("error {}", format::percent(error.rms)),
+    };
+    item(ui, short, &hover);
 }
 
 fn image(ui: &mut Ui, image: &CameraImage) {

@@ -3,7 +3,7 @@
 use super::super::CliError;
 use super::super::judge::Verdict;
 use crate::accuracy::ProbePoint;
-use crate::cli::budget::Account;
+use crate::cli::budget::BudgetOutcome;
 use crate::math::rgb::Rgb;
 use crate::world::World;
 use serde_json::{Value, json};
@@ -39,7 +39,7 @@ pub fn print(
     world: &World,
     measured: &[Measured],
     verdict: Option<&Verdict>,
-    account: Option<&Account>,
+    account: Option<&BudgetOutcome>,
     as_json: bool,
 ) -> Result<(), CliError> {
     let mut out = std::io::BufWriter::new(std::io::stdout().lock());

@@ -3,7 +3,7 @@
 use super::subject::Subject;
 use super::{Drawn, Options};
 use crate::choice::Choice;
-use crate::cli::budget::Budget;
+use crate::cli::budget::CommandBudget;
 use crate::cli::seeking::picture_for;
 use crate::cli::{CliError, refuse};
 use crate::study::{self, Way};
@@ -15,17 +15,17 @@ const WAYS: [Way; 4] = [Way::Reference, Way::RadiosityDirect, Way::FinalGather, 
 impl Options {
     /// What is asked for instead of a way to make the picture, if anything is. Ends the program, as any other wrong command
     /// line does, where options say how it is made all the same.
-    pub(super) fn budget(&self) -> Option<Budget> {
+    pub(super) fn budget(&self) -> Option<CommandBudget> {
         let view = self.view.map(|view| format!("--view {}", view.name()));
         // With an error, the settings of one view may be asked for; with a time, a view stops there.
-        let budget = Budget::of(&self.run, self.error, view.as_deref().filter(|_| self.error.is_none()))?;
+        let budget = CommandBudget::of(&self.run, self.error, view.as_deref().filter(|_| self.error.is_none()))?;
         let says_how = self.samples.is_some()
             || self.photons.given().is_some()
             || self.image.gather_rays.is_some()
             || self.image.paths.is_some()
             || self.occlusion.given().is_some();
         if says_how {
-            Budget::refuse_choices();
+            CommandBudget::refuse_choices();
         }
         if self.patch.is_some() || self.pick.is_some() || self.ambient || self.bounce > 0 || self.wireframe {
             refuse("--error, and --time without --view, make pictures by rays: they show no patches");
@@ -45,7 +45,7 @@ impl Options {
         way
     }
 
-    pub(super) fn draw_within(&self, budget: &Budget) -> Result<Drawn, CliError> {
+    pub(super) fn draw_within(&self, budget: &CommandBudget) -> Result<Drawn, CliError> {
         let way = self.way();
         let gpu = self.camera.gpu()?;
         let (world, found, account) = picture_for(budget, &self.run, &self.camera, way)?;
@@ -55,7 +55,7 @@ impl Options {
             None => Light::default(),
         };
         let mut drawn = self.draw_image(&gpu, &world, &found.recipe.settings, light, found.image)?;
-        drawn.facts.extend(account.claim().facts());
+        drawn.facts.extend(account.quality().facts());
         Ok(Drawn { account: Some(account), ..drawn })
     }
 }

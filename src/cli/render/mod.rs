@@ -5,7 +5,7 @@ mod diagrams;
 mod subject;
 mod views;
 
-use super::budget::Account;
+use super::budget::BudgetOutcome;
 use super::camera_options::CameraOptions;
 use super::image_options::ImageOptions;
 use super::occlusion_options::OcclusionOptions;
@@ -35,7 +35,7 @@ pub struct Options {
     view: Option<Subject>,
     /// Choose the settings, and the view unless --view says it: the cheapest picture whose error is at most this share of the
     /// mean radiance of the surfaces that are seen. With --time instead, and no --view, the most accurate within this time in
-    /// all
+    /// all; with both, the same, but no longer than the error takes
     #[arg(long, value_name = "PERCENT", conflicts_with_all = ["steps", "converge"], value_parser = values::percent)]
     error: Option<f64>,
     /// How many bounces of light the view `bounces` shows
@@ -78,7 +78,7 @@ struct Drawn {
     /// What is said of the picture itself goes under `picture`.
     report: Value,
     /// What a budget has led to, if there was one.
-    account: Option<Account>,
+    account: Option<BudgetOutcome>,
 }
 
 pub fn run(options: &Options) -> Result<(), CliError> {

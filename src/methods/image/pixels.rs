@@ -17,8 +17,9 @@ use rayon::prelude::*;
 use std::collections::HashSet;
 use std::sync::Arc;
 
-/// Of each pixel, along the width and along the height.
-const RAYS_ACROSS: u32 = 4;
+/// Of each pixel, along the width and along the height: from edge to edge, so that no large emitter that reaches into it is
+/// missed, which covers a corner at least.
+const RAYS_ACROSS: u32 = 5;
 /// Pixels that are looked at for some that show surfaces: all at once, and in all.
 const TRIES_AT_ONCE: usize = 1 << 12;
 const MOST_TRIES: u32 = 1 << 20;
@@ -49,6 +50,18 @@ impl Pixels {
         let shutter = Shutter::new(&camera, media_round(&*eye, &camera), size, settings.seed);
         let channels = vec![[Moments::default(); 3]; places.len()];
         Some(Self { eye, shutter, places, channels, samples: 0 })
+    }
+
+    /// The same pixels of the same light before their first sample, by other random numbers.
+    #[must_use]
+    pub fn reseeded(&self, seed: u64) -> Self {
+        Self {
+            eye: self.eye.clone(),
+            shutter: self.shutter.reseeded(seed),
+            places: self.places.clone(),
+            channels: vec![[Moments::default(); 3]; self.places.len()],
+            samples: 0,
+        }
     }
 
     /// One sample more of each, or of none if stopped.
@@ -87,7 +100,7 @@ pub fn spread_pixels(transport: &Transport, camera: &Camera, size: [u32; 2], cou
     let shown = |[x, y]: [u32; 2]| {
         let mut shown = Shown::Dull;
         for i in 0..RAYS_ACROSS * RAYS_ACROSS {
-            let inside = [i % RAYS_ACROSS, i / RAYS_ACROSS].map(|i| (i as f32 + 0.5) / RAYS_ACROSS as f32);
+            let inside = [i % RAYS_ACROSS, i / RAYS_ACROSS].map(|i| i as f32 / (RAYS_ACROSS - 1) as f32);
             let surface = transport.meet(&eye_rays.through([x as f32 + inside[0], y as f32 + inside[1]]))?;
             if transport.emission(&surface) != Rgb::ZERO {
                 shown = Shown::Emitter;

@@ -22,6 +22,11 @@ impl Shutter {
         Self { eye_rays: camera.rays(size), media, size, seed }
     }
 
+    /// The same with other random numbers.
+    pub fn reseeded(&self, seed: u64) -> Self {
+        Self { seed, ..*self }
+    }
+
     /// Sample `sample` of a cell of `cell` pixels: of a coarse one in its middle, of a pixel anywhere in it.
     pub fn sample(
         &self,

@@ -1,303 +1,242 @@
-//! From a wish to a picture: ways to make it are tried at some of its pixels, whose light is known, and what these show of
-//! error and price says which way the whole picture is made in.
+//! From a budget to a picture: candidates race at some of its pixels, whose light is known, and the winner makes the whole picture.
 
-mod draft;
-mod lines;
+mod candidates;
+mod exposure;
+mod forecast;
+mod pilot;
+mod race;
+mod studio;
 
-use super::attempt::CannotTry;
+use super::budget::{Budget, LONGEST, Prediction};
 use super::lit::Light;
 use super::not_found::NotFound;
+use super::progress::SearchProgress;
 use super::recipe::{Recipe, Way};
-use super::seek::Promise;
 use super::worlds::Worlds;
 use crate::accuracy::{Error, PixelTruth};
 use crate::camera::Camera;
 use crate::cancel::Cancel;
-use crate::errors::with_causes;
-use crate::methods::image::ImageRun;
-use crate::methods::{ImageSettings, Settings, Step};
+use crate::math::rgb::Rgb;
+use crate::methods::Settings;
 use crate::solution::CameraImage;
-use crate::world::World;
-use draft::Draft;
-use lines::Line;
-use std::sync::Arc;
+use exposure::{Exposure, Stopped};
+use forecast::{Attitude, Merit, SAFE, Targets};
+use race::{Race, Runner};
 use std::time::{Duration, Instant};
+use studio::{JUDGING, Studio};
 
-/// An error counts as reached when it is below this share of what is wanted: it is measured in a thousand pixels, and meant in
-/// all.
-const SAFE: f64 = 0.9;
-/// Pixels that tell an error that is wanted; and where time is short, so that more is known of each.
-const PIXELS: usize = 1024;
-const FEW_PIXELS: usize = 256;
-/// Share of the time allowed in which the truth is looked for before anything else.
-const FIRST_TRUTH: f64 = 0.12;
-/// The truth may be off by this share of what is wanted: over a thousand pixels that comes to a few percent of an error.
-const FLOOR: f64 = 0.7;
-/// Sets of pixels: those that say which way is taken, and how far, and those that say at last how far off the picture is.
-const CHOOSING: u32 = 0;
-const JUDGING: u32 = 1;
-/// Share of an error by which it may be uncertain, for noise of the truth, when it is told at last.
-const SURE: f64 = 0.05;
-/// Share of the time left that finding a way's light may take, and the first of it, of which nothing is known.
-const LIGHT: f64 = 0.45;
-const FIRST_LIGHT: f64 = 0.12;
-/// Share of the time left that trying a way on pixels may take.
-const TRIAL: f64 = 0.02;
-/// Samples of a pixel after which the errors of a way can be foreseen.
-const SAMPLES: u32 = 16;
-/// What is to be gained by a finer light, at least, as a share of the error.
-const LEVEL: f64 = 0.97;
-/// Light may turn out to be worth it that is finer by so many turns.
-const MOST_TURNS: usize = 3;
-/// A way that takes so many times as long as foreseen is given up.
-const PATIENCE: f64 = 3.0;
-/// When a search without a limit is given up.
-const LONGEST: Duration = Duration::from_secs(300);
-/// The longest that the truth is made better known for an error that is told at last.
-const LAST_TRUTH: Duration = Duration::from_secs(20);
+/// The truth is to be known to this share of what is wanted before an error counts as reached: over some hundred pixels that
+/// leaves it uncertain by less than a tenth.
+const FLOOR: f64 = 0.9;
+/// Share of the time of the picture that making the truth as well known may take, and this many seconds in any case.
+const LOOKING: f64 = 0.15;
+const LEAST_LOOKING: f64 = 0.25;
+/// A picture with so many times the samples that were expected to do is good enough where nothing speaks against it, however
+/// badly the truth is known: the judges say what came of it.
+const AMPLE: f64 = 1.5;
+/// Share of the time allowed that is kept for saying how far off the picture is.
+const TELLING: f64 = 0.04;
+/// Pixels that say how far off a picture is that no time limits, how uncertain that may be, as a share of the error, and the
+/// share of the time of the picture that it may take; but this much in any case.
+const JUDGES: usize = 1024;
+const SURE: f64 = 0.1;
+const JUDGE_SHARE: f64 = 1.0 / 3.0;
+const LEAST_JUDGING: Duration = Duration::from_millis(500);
+/// How often a picture that turned out to be less accurate than its pilots showed is gone on with.
+const MORE: u32 = 4;
 
-/// What is wanted of a picture. One of error and end, at least, or both.
+/// What is wanted of a picture.
 #[derive(Clone, Copy, Debug)]
-pub struct PictureGoal {
+pub struct PictureRequest {
     pub camera: Camera,
     /// Width and height, pixels.
     pub size: [u32; 2],
     /// The way to make it, if that is not to be chosen, too.
     pub way: Option<Way>,
-    /// As a share of the mean radiance of the surfaces that are seen.
-    pub error: Option<f64>,
-    /// When it must be over.
-    pub end: Option<Instant>,
+    /// Its error as a share of the mean radiance of the surfaces that are seen.
+    pub budget: Budget,
 }
 
-/// A picture that was made for a goal.
-pub struct Pictured {
+/// A picture that was made for a request.
+pub struct PictureResult {
     pub recipe: Recipe,
     /// What it was read off; `None` where rays from the camera found all light themselves.
     pub light: Option<Light>,
     pub image: CameraImage,
     pub error: Error,
-    pub promise: Promise,
+    pub prediction: Prediction,
     /// Of the light and of the picture.
     pub seconds: f64,
 }
 
-/// Makes the cheapest picture that is as accurate as is wanted, or the most accurate in the time allowed.
+/// Makes the cheapest picture that is as accurate as is wanted, or the most accurate in the time allowed; where the accuracy
+/// cannot be had in the time, too. `tell` hears how far it is.
 ///
 /// # Errors
 /// If nothing but background is seen, or no light, or no way came to an end.
 pub fn picture(
     worlds: &mut Worlds,
     settings: &Settings,
-    goal: &PictureGoal,
+    request: &PictureRequest,
     cancel: &Cancel,
-) -> Result<Pictured, NotFound> {
-    let start = Instant::now();
-    let end = goal.end.unwrap_or(start + LONGEST);
-    let pixels = if goal.error.is_some() { PIXELS } else { FEW_PIXELS };
-    let truth = PixelTruth::new(worlds.first(), goal.camera, goal.size, pixels, CHOOSING);
-    let mut search = Search { goal, truth, end, cancel, drafts: Vec::new(), refusal: None };
-    search.look_at_truth(start);
-    if search.truth.is_dark() {
-        return Err(NotFound::Dark);
+    tell: &mut dyn FnMut(&SearchProgress),
+) -> Result<PictureResult, NotFound> {
+    let mut studio = Studio::new(worlds, request, cancel, tell);
+    if studio.is_dark() {
+        return Err(NotFound::Unseen);
     }
-    search.try_ways(worlds, settings);
-    let chosen = goal.error.and_then(|wanted| search.chosen_for_error(wanted)).or_else(|| search.chosen_for_time());
-    let Some(chosen) = chosen else { return Err(NotFound::after(search.refusal)) };
-    search.expose(worlds.first(), chosen)
+    let Budget { error, end } = request.budget;
+    let mut until = request.budget.end_from(studio.start).saturating_duration_since(studio.start);
+    if end.is_some() {
+        until = until.mul_f64(1.0 - TELLING);
+    }
+    let targets = Targets { error, end: until.as_secs_f64(), is_timed: end.is_some() };
+    let candidates = candidates::of(studio.worlds.first(), settings, request.way);
+    let ranked = Race::new(&mut studio, targets, candidates).run();
+    let end = studio.start + until;
+    Darkroom { studio, targets, end }.develop(ranked)
 }
 
-/// A draft that is to become a picture, with so many samples if there is time for them.
-struct Chosen {
-    draft: Draft,
-    samples: u32,
-    promise: Promise,
-}
-
-/// The state of a search.
-struct Search<'a> {
-    goal: &'a PictureGoal,
-    truth: PixelTruth,
-    /// When it must be over.
+/// Where the whole picture is made.
+struct Darkroom<'a> {
+    studio: Studio<'a>,
+    targets: Targets,
+    /// When it must be done.
     end: Instant,
-    cancel: &'a Cancel,
-    drafts: Vec<Draft>,
-    /// Why the last way that could not be gone could not.
-    refusal: Option<CannotTry>,
 }
 
-impl Search<'_> {
-    fn seconds_left(&self) -> f64 {
-        self.end.saturating_duration_since(Instant::now()).as_secs_f64()
+impl Darkroom<'_> {
+    /// The picture of the best candidate; where that turns out to be worse than is wanted, and is not path tracing, which gets
+    /// there in the end, that of path tracing, if there is time.
+    fn develop(mut self, ranked: Vec<Runner>) -> Result<PictureResult, NotFound> {
+        let Some(best) = ranked.first() else { return Err(NotFound::after(self.studio.refusal)) };
+        let Some(result) = self.expose(best)? else { return Err(NotFound::NoTime) };
+        let is_missed = self.targets.error.is_some_and(|wanted| result.error.rms > wanted);
+        let traced = ranked[1..].iter().find(|runner| runner.recipe.way == Way::Reference);
+        let Some(traced) = traced.filter(|_| is_missed && !self.targets.is_timed) else { return Ok(result) };
+        let now = self.studio.start.elapsed().as_secs_f64();
+        match traced.forecast.own_merit(&self.targets, now, Attitude::Careful) {
+            Merit::Reaches(_) => {
+                let other = self.expose(traced)?.filter(|other| other.error.rms < result.error.rms);
+                Ok(other.unwrap_or(result))
+            }
+            Merit::Leaves(_) => Ok(result),
+        }
     }
 
-    /// A truth that is good enough to tell whether a picture is, or as good as a part of the time allows.
-    fn look_at_truth(&mut self, start: Instant) {
-        let allowed = start + self.end.saturating_duration_since(start).mul_f64(FIRST_TRUTH);
-        let floor = self.goal.error.map_or(0.0, |error| FLOOR * error);
-        while self.truth.floor() > floor
-            && !self.truth.is_dark()
-            && (Instant::now() < allowed || self.truth.floor().is_infinite())
-            && self.truth.refine(self.cancel)
-        {}
-    }
-
-    /// Tries all ways that may be worth it, each with finer and finer light.
-    fn try_ways(&mut self, worlds: &mut Worlds, settings: &Settings) {
-        let mut lines = lines::of(worlds.first(), settings, self.goal.way);
-        while let Some(line) = self.next(&lines) {
-            let recipe = lines[line].recipe();
-            let light_end = Instant::now() + Duration::from_secs_f64(self.light_seconds(&lines[line]));
-            match Draft::begin(worlds, &recipe, self.goal, &self.truth, light_end, self.cancel) {
-                Ok(Some(mut draft)) => {
-                    draft.look(&self.truth, SAMPLES, TRIAL * self.seconds_left(), self.cancel);
-                    log::info!("{draft}");
-                    lines[line].note(draft.light_seconds, draft.bias(), self.drafts.len());
-                    self.drafts.push(draft);
-                    lines::keep_the_faster(&mut lines);
+    /// `None` if stopped before there was a picture.
+    fn expose(&mut self, runner: &Runner) -> Result<Option<PictureResult>, NotFound> {
+        let now = self.studio.start.elapsed().as_secs_f64();
+        let expected = runner.forecast.picture_seconds(&self.targets, now);
+        let samples = expected / runner.forecast.sample_seconds;
+        // What cannot be had in the time allowed is not looked for, which would take a part of the time.
+        let mut wanted = self.targets.error.map(|error| SAFE * error);
+        let (foreseen, end) = match runner.forecast.own_merit(&self.targets, now, Attitude::Careful) {
+            Merit::Reaches(_) => (self.targets.error, self.end),
+            Merit::Leaves(error) if self.targets.is_timed => {
+                wanted = None;
+                (Some(error), self.end)
+            }
+            // More samples would not make it better.
+            Merit::Leaves(error) => (Some(error), self.end.min(Instant::now() + Duration::from_secs_f64(expected))),
+        };
+        let prediction = Prediction { error: foreseen, seconds: Some(runner.light_seconds + expected) };
+        let pilot = &self.studio.pilots[runner.pilot];
+        let Some(mut exposure) = Exposure::new(pilot, self.studio.request, (samples / 4.0) as u32) else {
+            return Ok(None);
+        };
+        let mut judge = Judge::new(&self.studio);
+        let mut error = None;
+        for _ in 0..MORE {
+            let stopped = self.advance(&mut exposure, wanted, end, &runner.recipe, samples);
+            let Some(image) = exposure.image().filter(|_| stopped != Stopped::Cancelled) else { return Ok(None) };
+            let seconds = runner.light_seconds + exposure.seconds();
+            let found = judge.error_of(&mut self.studio, &image, seconds).ok_or(NotFound::Unseen)?;
+            error = Some(found);
+            match (&mut wanted, self.targets.error) {
+                // The pilots have shown less of what is hard about the picture than the judges.
+                (Some(aim), Some(error)) if stopped == Stopped::Enough && found.rms > error => {
+                    *aim *= SAFE * error / found.rms;
                 }
-                Ok(None) => lines[line].end(),
-                Err(reason) => {
-                    log::info!("{}: {}", recipe.options(), with_causes(&reason));
-                    self.refusal = Some(reason);
-                    lines[line].end();
-                }
-            }
-            if self.cancel.is_requested() || Instant::now() >= self.end {
-                return;
+                _ => break,
             }
         }
-    }
-
-    /// What the next light of a line may take.
-    fn light_seconds(&self, line: &Line) -> f64 {
-        let left = self.seconds_left();
-        match self.goal.error {
-            // Light may take as long as what is known to be good enough.
-            Some(wanted) => self.least_seconds(wanted).min(left),
-            None if line.draft.is_none() => FIRST_LIGHT * left,
-            None => LIGHT * left,
-        }
-    }
-
-    /// How long the cheapest picture of an error takes that is known by now.
-    fn least_seconds(&self, wanted: f64) -> f64 {
-        self.drafts.iter().filter_map(|draft| draft.seconds_to(SAFE * wanted, 1.0)).fold(f64::MAX, f64::min)
-    }
-
-    /// The way to be tried next, if any is worth it.
-    fn next(&self, lines: &[Line]) -> Option<usize> {
-        let fresh = lines.iter().position(|line| !line.has_ended && line.draft.is_none());
-        fresh.or_else(|| lines.iter().position(|line| !line.has_ended && self.is_worth_refining(line)))
-    }
-
-    /// Whether a finer light may pay.
-    fn is_worth_refining(&self, line: &Line) -> bool {
-        let Some(draft) = line.draft.map(|draft| &self.drafts[draft]) else { return false };
-        match self.goal.error {
-            // With it, a picture that is good enough takes less time, or there is none yet.
-            Some(wanted) => {
-                let best = self.least_seconds(wanted);
-                let is_affordable = |turns: &i32| line.light_seconds(*turns) < best;
-                let seconds = |turns| {
-                    let exposure = draft.seconds_to(SAFE * wanted, line.bias_left(turns));
-                    exposure.map_or(f64::MAX, |exposure| line.light_seconds(turns) + exposure)
-                };
-                best == f64::MAX || (1..).take_while(is_affordable).take(MOST_TURNS).map(seconds).any(|one| one < best)
-            }
-            None => {
-                let left = self.seconds_left();
-                let best = self.drafts.iter().map(|draft| draft.error_in(left, 1.0)).fold(f64::MAX, f64::min);
-                let is_affordable = |turns: &i32| line.light_seconds(*turns) <= LIGHT * left;
-                let error = |turns| draft.error_in(left - line.light_seconds(turns), line.bias_left(turns));
-                (1..).take_while(is_affordable).take(MOST_TURNS).map(error).any(|error| error < LEVEL * best)
-            }
-        }
-    }
-
-    /// The best that there is time for.
-    fn chosen_for_time(&mut self) -> Option<Chosen> {
-        // Where there is as much time as one likes, no more samples than were looked at without coming to what was wanted.
-        let left = self.goal.end.map(|_| self.seconds_left());
-        let error = |draft: &Draft| left.map_or(draft.last_error(), |left| draft.error_in(left, 1.0));
-        let order = |&a: &usize, &b: &usize| error(&self.drafts[a]).total_cmp(&error(&self.drafts[b]));
-        let best = (0..self.drafts.len()).min_by(order)?;
-        let draft = self.drafts.swap_remove(best);
-        let promise = Promise { error: Some(error(&draft)), seconds: left.map(|left| draft.light_seconds + left) };
-        let samples = if left.is_some() { ImageSettings::MAX_SAMPLES } else { draft.samples() };
-        Some(Chosen { draft, samples, promise })
-    }
-
-    /// The cheapest that is good enough, as its pixels show before the others are made; `None` where none is.
-    fn chosen_for_error(&mut self, wanted: f64) -> Option<Chosen> {
-        let price = |draft: &Draft| draft.seconds_to(SAFE * wanted, 1.0).unwrap_or(f64::MAX);
-        self.drafts.sort_by(|a, b| price(a).total_cmp(&price(b)));
-        for index in 0..self.drafts.len() {
-            if self.cancel.is_requested() || Instant::now() >= self.end {
-                break;
-            }
-            let left = self.seconds_left();
-            let draft = &mut self.drafts[index];
-            let foreseen = draft.seconds_to(SAFE * wanted, 1.0);
-            // What is known to have no bias gets there in the end.
-            let patience = if draft.recipe.way == Way::Reference { f64::MAX } else { PATIENCE };
-            // The rest of the picture is to be made in the time left, too.
-            let limit = foreseen.map_or(0.0, |seconds| (patience * seconds).min(left));
-            let samples = draft.expose_until(&mut self.truth, SAFE * wanted, limit, self.end, self.cancel);
-            if let Some(samples) = samples {
-                let draft = self.drafts.swap_remove(index);
-                let seconds = foreseen.map(|seconds| draft.light_seconds + seconds);
-                return Some(Chosen { draft, samples, promise: Promise { error: Some(wanted), seconds } });
-            }
-        }
-        None
-    }
-
-    /// The whole picture, in whole passes: so it can be made again.
-    fn expose(&mut self, world: &Arc<World>, chosen: Chosen) -> Result<Pictured, NotFound> {
-        let start = Instant::now();
-        let Chosen { draft: Draft { mut recipe, lit, light_seconds, .. }, samples, promise } = chosen;
-        recipe.settings.image.samples = samples;
-        let PictureGoal { camera, size, .. } = *self.goal;
-        let run = ImageRun::new(&lit.sources, recipe.way.picture(), camera, size, &recipe.settings);
-        let image = run.and_then(|mut run| {
-            let mut pass = Instant::now();
-            while run.step(self.cancel) == Step::Advanced {
-                if run.is_between_passes() {
-                    let last = pass.elapsed();
-                    pass = Instant::now();
-                    if self.goal.end.is_some_and(|end| pass + last > end) {
-                        break;
-                    }
-                }
-            }
-            run.image().filter(|image| image.samples > 0 && !self.cancel.is_requested())
-        });
-        let Some(image) = image else { return Err(NotFound::NoTime) };
-        let elapsed = start.elapsed();
+        let (Some(error), Some(image)) = (error, exposure.image()) else { return Ok(None) };
+        let mut recipe = runner.recipe;
         recipe.settings.image.samples = image.samples;
-        let error = self.error_of(world, &image).ok_or(NotFound::Dark)?;
-        let image = CameraImage { elapsed, is_complete: true, ..image };
-        let seconds = light_seconds + elapsed.as_secs_f64();
-        Ok(Pictured { recipe, light: lit.light, image, error, promise, seconds })
+        let light = self.studio.pilots[runner.pilot].lit.light.clone();
+        let seconds = runner.light_seconds + exposure.seconds();
+        Ok(Some(PictureResult { recipe, light, image, error, prediction, seconds }))
     }
 
-    /// How far off a picture is: where there is time, at other pixels than it was chosen by, against a truth that is good
-    /// enough to tell.
-    fn error_of(&mut self, world: &Arc<World>, image: &CameraImage) -> Option<Error> {
-        let (radiance, width) = (&image.radiance, image.size[0]);
-        if self.goal.end.is_some() {
-            return self.truth.error_of_picture(radiance, width);
-        }
-        let mut truth = PixelTruth::new(world, self.goal.camera, image.size, PIXELS, JUDGING);
-        let end = Instant::now() + LAST_TRUTH;
-        let wanted = self.goal.error.unwrap_or(0.0);
-        while Instant::now() < end && truth.refine(self.cancel) {
-            let is_enough = |error: &Error| error.uncertainty <= SURE * error.rms.max(wanted);
-            if truth.error(&truth.of_places(radiance, width)).as_ref().is_some_and(is_enough) {
-                break;
+    /// Goes on with a picture until its pixels show the error that is wanted, if one is, or until `end`.
+    fn advance(
+        &mut self,
+        exposure: &mut Exposure,
+        wanted: Option<f64>,
+        end: Instant,
+        recipe: &Recipe,
+        expected: f64,
+    ) -> Stopped {
+        let (cancel, mut looking) = (self.studio.cancel, 0.0);
+        exposure.advance(end, cancel, &mut |exposure, radiance| {
+            let samples = exposure.samples();
+            let doing = format!("rendering {}: {samples} samples of about {expected:.0}", recipe.way_in_words());
+            let Some(wanted) = wanted else {
+                (self.studio.tell)(&SearchProgress::of(doing));
+                return false;
+            };
+            let width = self.studio.request.size[0];
+            let allowed = (LEAST_LOOKING + LOOKING * exposure.seconds() - looking).min(left(end));
+            let start = Instant::now();
+            self.studio.refine_until(FLOOR * wanted, allowed);
+            looking += start.elapsed().as_secs_f64();
+            let error = self.studio.truth.error(&self.studio.truth.of_places(radiance, width));
+            let best = error.map(|error| error.in_words());
+            (self.studio.tell)(&SearchProgress { doing, best });
+            // Where there is no judge the time allowed is better used.
+            let is_ample = !self.targets.is_timed && f64::from(samples) >= AMPLE * expected;
+            error.is_some_and(|error| error.rms + error.uncertainty <= wanted || is_ample && error.rms <= wanted)
+        })
+    }
+}
+
+fn left(end: Instant) -> f64 {
+    end.saturating_duration_since(Instant::now()).as_secs_f64()
+}
+
+/// Says how far off a picture is: where time does not limit it, at other pixels than it was chosen by.
+struct Judge {
+    truth: Option<PixelTruth>,
+}
+
+impl Judge {
+    fn new(studio: &Studio<'_>) -> Self {
+        let of = studio.request;
+        let is_timed = of.budget.end.is_some();
+        let truth = || PixelTruth::new(studio.worlds.first(), of.camera, of.size, JUDGES, JUDGING);
+        Self { truth: (!is_timed).then(truth) }
+    }
+
+    /// The error of a picture that has taken so many seconds.
+    fn error_of(&mut self, studio: &mut Studio<'_>, image: &CameraImage, seconds: f64) -> Option<Error> {
+        let (radiance, width): (&[Rgb], u32) = (&image.radiance, image.size[0]);
+        (studio.tell)(&SearchProgress::of("measuring the error of the picture"));
+        let allowed = Duration::from_secs_f64(JUDGE_SHARE * seconds).max(LEAST_JUDGING);
+        let Some(truth) = &mut self.truth else {
+            let rms = studio.truth.error_of_picture(radiance, width).map_or(0.0, |error| error.rms);
+            let end = studio.request.budget.end.unwrap_or(studio.start + LONGEST);
+            studio.refine_until(rms / 2.0, left(end).min(allowed.as_secs_f64()));
+            return studio.truth.error_of_picture(radiance, width);
+        };
+        let start = Instant::now();
+        let wanted = studio.request.budget.error.unwrap_or_default();
+        loop {
+            let error = truth.error(&truth.of_places(radiance, width));
+            let is_sure = error.is_some_and(|error| error.uncertainty <= SURE * error.rms.max(wanted));
+            if is_sure || start.elapsed() > allowed || !truth.refine(studio.cancel) {
+                return truth.error_of_picture(radiance, width);
             }
         }
-        truth.error_of_picture(radiance, width)
     }
 }

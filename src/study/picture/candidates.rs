@@ -1,4 +1,4 @@
-//! Ways to make a picture, each with light that can be made finer.
+//! Candidates for a picture: ways to make it, each with light that can be made finer.
 
 use crate::mesh::MeshSettings;
 use crate::methods::{ImageSettings, PhotonSettings, Settings, Solver};
@@ -17,7 +17,8 @@ const GATHER_RAYS: u32 = 16;
 const LIGHT_RAYS: u32 = 2;
 
 /// A way to make a picture, and how fine its light is by now.
-pub struct Line {
+#[derive(Clone, Debug)]
+pub struct Candidate {
     first: Recipe,
     /// How often the light was made finer.
     turns: i32,
@@ -25,56 +26,58 @@ pub struct Line {
     growth: f64,
     decay: f64,
     last: Option<(f64, f64)>,
-    /// The draft with the finest light so far.
-    pub draft: Option<usize>,
+    /// Where the pilot with the finest light so far is kept.
+    pub runner: Option<usize>,
     pub has_ended: bool,
 }
 
 /// All ways, or one of them.
-pub fn of(world: &World, settings: &Settings, way: Option<Way>) -> Vec<Line> {
+pub fn of(world: &World, settings: &Settings, way: Option<Way>) -> Vec<Candidate> {
     let image = ImageSettings { gather_rays: GATHER_RAYS, light_rays: LIGHT_RAYS, ..settings.image };
     let size = settings.mesh.element_size.unwrap_or(COARSE * world.element_size);
     let mesh = MeshSettings { element_size: Some(size), ..settings.mesh };
     let radiosity = Settings { mesh, unshot_limit: UNSHOT, image, ..*settings };
     let photons = PhotonSettings { count: PHOTONS, caustic_count: PHOTONS, ..settings.photons };
-    let line = |way, settings| Line {
+    let candidate = |way, settings| Candidate {
         first: Recipe { way, settings },
         turns: 0,
         growth: 4.5,
         decay: 0.5,
         last: None,
-        draft: None,
+        runner: None,
         has_ended: false,
     };
     let all = [
-        line(Way::Reference, Settings { image, ..*settings }),
-        line(Way::RadiosityDirect, radiosity),
-        line(Way::RadiosityDirect, Settings { solver: Solver::Southwell, ..radiosity }),
-        line(Way::FinalGather, Settings { photons, image, ..*settings }),
-        line(Way::DiffuseAo, Settings { image, ..*settings }),
+        candidate(Way::Reference, Settings { image, ..*settings }),
+        candidate(Way::RadiosityDirect, radiosity),
+        candidate(Way::RadiosityDirect, Settings { solver: Solver::Southwell, ..radiosity }),
+        candidate(Way::FinalGather, Settings { photons, image, ..*settings }),
+        candidate(Way::DiffuseAo, Settings { image, ..*settings }),
     ];
-    all.into_iter().filter(|line| way.is_none_or(|way| way == line.first.way)).collect()
+    all.into_iter().filter(|candidate| way.is_none_or(|way| way == candidate.first.way)).collect()
 }
 
-/// Ends all lines but one that lead to the same light, as soon as it is known which of them is the fastest.
-pub fn keep_the_faster(lines: &mut [Line]) {
-    let seconds = |line: &Line| line.last.map(|(seconds, _)| seconds);
-    let rivals = lines.iter().filter(|line| line.first.way == Way::RadiosityDirect);
+/// Ends all candidates but one that lead to the same light, as soon as it is known which of them is the fastest.
+pub fn keep_the_faster(candidates: &mut [Candidate]) {
+    let seconds = |candidate: &Candidate| candidate.last.map(|(seconds, _)| seconds);
+    let rivals = candidates.iter().filter(|candidate| candidate.first.way == Way::RadiosityDirect);
     if let Some(fastest) = rivals.clone().filter_map(seconds).reduce(f64::min)
-        && rivals.clone().all(|line| line.has_ended || line.turns == 0 && line.last.is_some())
+        && rivals.clone().all(|candidate| candidate.has_ended || candidate.turns == 0 && candidate.last.is_some())
     {
-        let slower = |line: &&mut Line| {
-            line.first.way == Way::RadiosityDirect && line.turns == 0 && seconds(line).is_some_and(|own| own > fastest)
+        let slower = |candidate: &&mut Candidate| {
+            candidate.first.way == Way::RadiosityDirect
+                && candidate.turns == 0
+                && seconds(candidate).is_some_and(|own| own > fastest)
         };
-        lines.iter_mut().filter(slower).for_each(Line::end);
+        candidates.iter_mut().filter(slower).for_each(Candidate::end);
     }
 }
 
-impl Line {
+impl Candidate {
     /// The next to be tried.
     pub fn recipe(&self) -> Recipe {
         let Recipe { way, settings } = self.first;
-        let turns = if self.draft.is_some() { self.turns + 1 } else { self.turns };
+        let turns = if self.runner.is_some() { self.turns + 1 } else { self.turns };
         let settings = match way {
             Way::RadiosityDirect => {
                 let size = settings.mesh.element_size.map(|size| size * 0.5_f32.powi(turns));
@@ -90,9 +93,9 @@ impl Line {
         Recipe { way, settings }
     }
 
-    /// Takes note of what the light took and how far off it is, and of where it is kept.
-    pub fn note(&mut self, seconds: f64, bias: f64, draft: usize) {
-        if self.draft.is_some() {
+    /// Takes note of what the light took and how far off it is, and of where its pilot is kept.
+    pub fn note(&mut self, seconds: f64, bias: f64, runner: usize) {
+        if self.runner.is_some() {
             self.turns += 1;
         }
         if let Some((seconds_before, bias_before)) = self.last {
@@ -100,7 +103,7 @@ impl Line {
             self.decay = if bias < bias_before { (bias / bias_before).max(0.2) } else { 1.0 };
         }
         self.last = Some((seconds, bias));
-        self.draft = Some(draft);
+        self.runner = Some(runner);
         // Rays that find all light themselves find no more of it by another light.
         self.has_ended |= matches!(self.first.way, Way::Reference | Way::DiffuseAo) || self.decay == 1.0;
     }
@@ -127,29 +130,29 @@ mod tests {
     use crate::cancel::Cancel;
     use crate::scene::Scene;
 
-    fn lines() -> Vec<Line> {
+    fn candidates() -> Vec<Candidate> {
         let scene = Scene::open("cornell-box").expect("a built-in scene");
         let world = World::build(scene, &MeshSettings::default(), &Cancel::default()).expect("a world");
         of(&world, &Settings::default(), None)
     }
 
-    fn ended(lines: &[Line]) -> Vec<bool> {
-        lines.iter().map(|line| line.has_ended).collect()
+    fn ended(candidates: &[Candidate]) -> Vec<bool> {
+        candidates.iter().map(|candidate| candidate.has_ended).collect()
     }
 
     #[test]
     fn what_a_turn_brought_is_expected_of_the_next() {
-        let mut line = lines().remove(1);
-        line.note(1.0, 0.08, 0);
-        line.note(3.0, 0.02, 1);
-        assert_eq!((line.light_seconds(1), line.light_seconds(2)), (9.0, 27.0));
-        assert!((line.bias_left(1) - 0.25).abs() < 1e-12 && (line.bias_left(2) - 0.0625).abs() < 1e-12);
-        let [first, next] = [line.first, line.recipe()].map(|recipe| recipe.settings.mesh.element_size);
+        let mut candidate = candidates().remove(1);
+        candidate.note(1.0, 0.08, 0);
+        candidate.note(3.0, 0.02, 1);
+        assert_eq!((candidate.light_seconds(1), candidate.light_seconds(2)), (9.0, 27.0));
+        assert!((candidate.bias_left(1) - 0.25).abs() < 1e-12 && (candidate.bias_left(2) - 0.0625).abs() < 1e-12);
+        let [first, next] = [candidate.first, candidate.recipe()].map(|recipe| recipe.settings.mesh.element_size);
         assert_eq!(next, first.map(|size| size / 4.0));
         // A bias that does not fall any further, or that cannot be told from none.
-        line.note(9.0, 0.02, 2);
-        assert!(line.has_ended);
-        let mut exact = lines().remove(3);
+        candidate.note(9.0, 0.02, 2);
+        assert!(candidate.has_ended);
+        let mut exact = candidates().remove(3);
         exact.note(1.0, 0.0, 0);
         assert!(!exact.has_ended);
         exact.note(4.0, 0.0, 1);
@@ -158,22 +161,22 @@ mod tests {
 
     #[test]
     fn of_two_lines_to_the_same_light_the_faster_goes_on() {
-        let mut lines = lines();
-        keep_the_faster(&mut lines);
-        lines[1].note(1.0, 0.1, 0);
-        keep_the_faster(&mut lines);
-        assert_eq!(ended(&lines), [false; 5]);
-        lines[2].note(0.5, 0.1, 1);
-        keep_the_faster(&mut lines);
-        assert_eq!(ended(&lines), [false, true, false, false, false]);
+        let mut candidates = candidates();
+        keep_the_faster(&mut candidates);
+        candidates[1].note(1.0, 0.1, 0);
+        keep_the_faster(&mut candidates);
+        assert_eq!(ended(&candidates), [false; 5]);
+        candidates[2].note(0.5, 0.1, 1);
+        keep_the_faster(&mut candidates);
+        assert_eq!(ended(&candidates), [false, true, false, false, false]);
     }
 
     #[test]
     fn a_line_that_cannot_begin_stands_in_nobodys_way() {
-        let mut lines = lines();
-        lines[2].end();
-        lines[1].note(1.0, 0.1, 0);
-        keep_the_faster(&mut lines);
-        assert_eq!(ended(&lines), [false, false, true, false, false]);
+        let mut candidates = candidates();
+        candidates[2].end();
+        candidates[1].note(1.0, 0.1, 0);
+        keep_the_faster(&mut candidates);
+        assert_eq!(ended(&candidates), [false, false, true, false, false]);
     }
 }
