@@ -8,12 +8,15 @@ use crate::cancel::Cancelled;
 use crate::effects::{Effect, Effects, Switches};
 use crate::math::rgb::total;
 use crate::mesh::MeshSettings;
+use crate::methods::photon_map::PhotonMapping;
 use crate::methods::radiosity::pick;
-use crate::methods::{Settings, Solver};
+use crate::methods::transport::Transport;
+use crate::methods::{PhotonSettings, Settings, Solver, Step};
 use crate::scene::Material;
 use crate::solution::{Solution, Zero};
 use crate::world::World;
 use glam::{DMat3, DVec3};
+use std::sync::Arc;
 
 pub const CASES: &[Case] = &[
     Case {
@@ -27,6 +30,12 @@ pub const CASES: &[Case] = &[
         about: "squares of one plane in general position, which see nothing of each other",
         measure: coplanar_faces,
         scene: || tilted_plane().show("coplanar-faces"),
+    },
+    Case {
+        name: "glass-on-the-floor",
+        about: "a block of glass on the floor of a closed room, down to no gap at all: no photon may slip out between them",
+        measure: glass_on_the_floor,
+        scene: || glass_over_the_floor(0.0).show("glass-on-the-floor"),
     },
     Case {
         name: "rug-in-the-floor",
@@ -78,6 +87,16 @@ fn tilted_plane() -> Stage {
         .object("neighbours", 0.5, 0.0)
         .face(&square(1.0))
         .face(&square(2.5))
+}
+
+fn glass_over_the_floor(gap: f64) -> Stage {
+    let glass = "newmtl glass\nKd 0 0 0\nNi 1.5\nillum 7\n";
+    cube(0.5, 0.0)
+        .object("lamp", 0.5, 1.0)
+        .level_down([0.4, 0.6], 0.9, [0.4, 0.6])
+        .material(glass)
+        .line("o glass\nusemtl glass")
+        .block(DVec3::new(0.25, gap, 0.25), DVec3::new(0.75, 0.3, 0.75))
 }
 
 fn rug() -> Stage {
@@ -145,6 +164,27 @@ fn coplanar_faces(rows: &mut Rows) -> Result<(), Cancelled> {
     // The lamp lights nothing, so both sides of the plane count: half of the pairs are of a side with one behind it.
     rows.check("share of pairs that see nothing for being in one plane", coplanar, exactly(0.5), guard);
     rows.check("share of pairs that see nothing for facing away", behind, exactly(0.5), guard);
+    Ok(())
+}
+
+fn glass_on_the_floor(rows: &mut Rows) -> Result<(), Cancelled> {
+    let guard = "rays start on the surface that they leave; what touches it is found in double precision";
+    for gap in [0.0, 1e-7, 1e-6, -1e-7] {
+        let world = world(glass_over_the_floor(gap).open("glass"), single(0.5), rows.cancel)?;
+        let photons = PhotonSettings { count: 20_000, caustic_count: 0, ..PhotonSettings::default() };
+        let settings = Settings { photons, ..Settings::default() };
+        let mut mapping = PhotonMapping::new(Arc::new(Transport::new(world, settings.effects)), &settings);
+        loop {
+            match mapping.step(rows.cancel) {
+                Step::Advanced | Step::Prepared => {}
+                Step::Converged => break,
+                Step::Cancelled => return Err(Cancelled),
+            }
+        }
+        let energy = mapping.solution().energy;
+        let share = energy.escaped.element_sum() / energy.emitted.element_sum();
+        rows.check(format!("share of the photons that escapes, gap {gap:.0e}"), share, exactly(0.0), guard);
+    }
     Ok(())
 }
 

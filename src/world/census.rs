@@ -2,7 +2,7 @@
 //!
 //! Nothing is traced. Where counting alone cannot tell whether light gets from here to there, it is taken to.
 
-use super::planes::may_see;
+use super::planes::{may_see, may_see_across_gaps};
 use super::sides::emitting_sides;
 use super::surface::Surfaces;
 use crate::math::rgb::Rgb;
@@ -87,9 +87,9 @@ impl Census {
 }
 
 /// Whether light of these emitting sides may arrive at any side that is reached. No gap is too small for it.
-pub(super) fn light_arrives(surfaces: &Surfaces, emitters: &[usize], is_reached: &[bool]) -> bool {
+pub(super) fn light_arrives(surfaces: &Surfaces, emitters: &[usize], is_reached: &[bool], tolerance: f64) -> bool {
     let reached: Vec<usize> = (0..is_reached.len()).filter(|&side| is_reached[side]).collect();
-    may_see(surfaces, emitters, &reached, 0.0)
+    may_see_across_gaps(surfaces, emitters, &reached, tolerance)
 }
 
 /// Smallest and largest ρ, by channel, of the materials that are reached.

@@ -101,7 +101,7 @@ impl World {
         let tolerance = tracer.offset().min(TOUCHING * bounds.radius());
         let emitters = sides::emitting_sides(&scene);
         let mut reach = sides::explore(&scene, &emitters, &surfaces, &tracer, start.eye, cancel)?;
-        let arrives = census::light_arrives(&surfaces, &emitters, &reach.is_reached);
+        let arrives = census::light_arrives(&surfaces, &emitters, &reach.is_reached, tolerance.into());
         if !emitters.is_empty() && !arrives {
             // Lamps that light nothing are no reason not to look round.
             let lit = reach;

@@ -7,6 +7,9 @@ use glam::{DVec3, Vec3A};
 /// than a few thousandths of a second.
 const MOST_PAIRS: usize = 1 << 17;
 
+/// Sides whose normals have a smaller cosine than this face each other like parallel plates.
+const FACING: f64 = -0.5;
+
 /// The plane of a side.
 #[derive(Clone, Copy, PartialEq)]
 pub struct Plane {
@@ -43,14 +46,25 @@ impl Plane {
 /// False if no side of the first ones faces a side of the others that faces it, by more than `tolerance`, m. True if one may
 /// see another: what stands between is not looked for, and of too many pairs not all are.
 pub fn may_see(surfaces: &Surfaces, from: &[usize], to: &[usize], tolerance: f64) -> bool {
+    any_faces(surfaces, from, to, |_, _| tolerance)
+}
+
+/// The same, but sides that face each other like parallel plates may do so across the smallest gap.
+pub fn may_see_across_gaps(surfaces: &Surfaces, from: &[usize], to: &[usize], tolerance: f64) -> bool {
+    any_faces(surfaces, from, to, |this, other| if this.normal.dot(other.normal) < FACING { 0.0 } else { tolerance })
+}
+
+fn any_faces(surfaces: &Surfaces, from: &[usize], to: &[usize], tolerance: impl Fn(&Plane, &Plane) -> f64) -> bool {
     let mut pairs = 0;
     from.iter().any(|&this| {
         let plane = Plane::new(surfaces, this);
         to.iter().any(|&other| {
+            let facing = Plane::new(surfaces, other);
+            let tolerance = tolerance(&plane, &facing);
             pairs += 1;
             pairs > MOST_PAIRS
                 || plane.faces(surfaces.corners_of(other / 2), tolerance)
-                    && Plane::new(surfaces, other).faces(surfaces.corners_of(this / 2), tolerance)
+                    && facing.faces(surfaces.corners_of(this / 2), tolerance)
         })
     })
 }

@@ -84,6 +84,24 @@ fn all_that_is_emitted_is_absorbed() {
     assert!(means.standard_error() < 0.01 * expected, "{means:?}");
 }
 
+/// A panel of two lamps back to back, a unit square each, shines on both of two black walls 1 m away.
+#[test]
+fn a_panel_shines_both_ways() {
+    let square = |y: f32| format!("v -0.5 {y} -0.5\nv -0.5 {y} 0.5\nv 0.5 {y} 0.5\nv 0.5 {y} -0.5\n");
+    let obj = format!(
+        "usemtl lamp\n{}f 1 2 3 4\n{}f 8 7 6 5\nusemtl black\n{}f 12 11 10 9\n{}f 13 14 15 16\n",
+        square(0.0),
+        square(0.0),
+        square(1.0),
+        square(-1.0)
+    );
+    let transport = scene(&obj, MTL);
+    let points = [(Vec3A::Y, Vec3A::NEG_Y), (Vec3A::NEG_Y, Vec3A::Y)];
+    for found in irradiance(&transport, &points, 1024, 0) {
+        assert_all_near(&found, Rgb::new(3.0, 2.0, 1.0) * (PI * 0.239_456_470_460_774) as f32);
+    }
+}
+
 /// From this side nothing is lit, and from outside nothing is there.
 #[test]
 fn the_side_that_is_asked_is_the_side_that_counts() {

@@ -112,3 +112,30 @@ fn a_clear_pane_changes_nothing_behind_it() {
         "{without} without, {with} with the pane"
     );
 }
+
+/// The same faces with their fronts on the other side.
+fn turned(text: &str) -> String {
+    let turned = |line: &str| match line.strip_prefix("f ") {
+        Some(corners) => format!("f {}\n", corners.split(' ').rev().collect::<Vec<_>>().join(" ")),
+        None => format!("{line}\n"),
+    };
+    text.lines().map(turned).collect()
+}
+
+/// Rays that leave glass, or go through a clear sheet, meet the floor below however near it is: nothing escapes from a closed
+/// room, and what is emitted is absorbed.
+#[test]
+fn no_photon_leaves_a_closed_room_past_clear_things_on_its_floor() {
+    let room = block("floor", 1.0, 0.0, 2.0);
+    for room in [turned(&room), room] {
+        for gap in [0.0, 1e-7, 1e-6, 3e-6, 1e-5, 1e-4, -1e-7, -1e-6] {
+            for clear in [block("glass", 0.5, gap, 0.6), level("pane", 0.5, gap), turned(&level("pane", 0.5, gap))] {
+                let photons = PhotonSettings { count: 20_000, caustic_count: 0, ..PhotonSettings::default() };
+                let energy = run_to_end(&scene(&[room.clone(), clear, lamp(1.9)]), photons).solution().energy;
+                assert_eq!(energy.escaped.max_element(), 0.0, "gap {gap}: {energy:?}");
+                let lost = (energy.emitted - energy.absorbed).abs().max_element();
+                assert!(lost <= 1e-6 * energy.emitted.max_element(), "gap {gap}: {energy:?}");
+            }
+        }
+    }
+}

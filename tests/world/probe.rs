@@ -86,3 +86,22 @@ fn a_point_a_little_under_a_surface_has_its_irradiance() {
         );
     }
 }
+
+/// Points of a floor under what is nearer than a thousandth of the scene's radius, and points a little off it.
+#[test]
+fn the_surface_nearest_to_a_point_is_the_one_that_is_meant() {
+    let world = |height: f32| {
+        let obj = Obj::new().object("floor", "glow").level([0.0, 8.0], 0.0, [0.0, 8.0]);
+        build_with(obj.object("ceiling", "glow").level_down([0.0, 8.0], height, [0.0, 8.0]).open(), 0.5)
+    };
+    for height in [5e-3, 1e-3, 1e-4, 1e-5] {
+        let world = world(height);
+        for (off, side) in [(0.0, (0, true)), (1e-6, (0, true)), (-1e-5, (0, true)), (height, (1, false))] {
+            let hit = world.meet_at(Vec3A::new(4.0, off, 4.0), Vec3A::Y).expect("a surface");
+            assert_eq!((hit.polygon, hit.is_front), side, "{off} above the floor, {height} below the ceiling");
+        }
+        let hit = world.meet_at(Vec3A::new(4.0, height, 4.0), Vec3A::NEG_Y).expect("a surface");
+        assert_eq!((hit.polygon, hit.is_front), (1, true));
+        assert_eq!(world.meet_at(Vec3A::new(4.0, 1.0, 4.0), Vec3A::Y), None);
+    }
+}
