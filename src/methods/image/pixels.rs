@@ -17,9 +17,10 @@ use rayon::prelude::*;
 use std::collections::HashSet;
 use std::sync::Arc;
 
-/// Of each pixel, along the width and along the height: from edge to edge, so that no large emitter that reaches into it is
-/// missed, which covers a corner at least.
-const RAYS_ACROSS: u32 = 5;
+/// Of each pixel, along the width and along the height.
+const RAYS_ACROSS: u32 = 4;
+/// Where a large emitter that reaches into a pixel is met at least once, however little of it that covers.
+const CORNERS: [[f32; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
 /// Pixels that are looked at for some that show surfaces: all at once, and in all.
 const TRIES_AT_ONCE: usize = 1 << 12;
 const MOST_TRIES: u32 = 1 << 20;
@@ -98,11 +99,12 @@ impl Pixels {
 pub fn spread_pixels(transport: &Transport, camera: &Camera, size: [u32; 2], count: usize, set: u32) -> Vec<[u32; 2]> {
     let eye_rays = camera.rays(size);
     let shown = |[x, y]: [u32; 2]| {
-        let mut shown = Shown::Dull;
+        let met = |inside: [f32; 2]| transport.meet(&eye_rays.through([x as f32 + inside[0], y as f32 + inside[1]]));
+        let emits = |inside| met(inside).is_some_and(|surface| transport.emission(&surface) != Rgb::ZERO);
+        let mut shown = if CORNERS.into_iter().any(emits) { Shown::Emitter } else { Shown::Dull };
         for i in 0..RAYS_ACROSS * RAYS_ACROSS {
-            let inside = [i % RAYS_ACROSS, i / RAYS_ACROSS].map(|i| i as f32 / (RAYS_ACROSS - 1) as f32);
-            let surface = transport.meet(&eye_rays.through([x as f32 + inside[0], y as f32 + inside[1]]))?;
-            if transport.emission(&surface) != Rgb::ZERO {
+            let inside = [i % RAYS_ACROSS, i / RAYS_ACROSS].map(|i| (i as f32 + 0.5) / RAYS_ACROSS as f32);
+            if transport.emission(&met(inside)?) != Rgb::ZERO {
                 shown = Shown::Emitter;
             }
         }

@@ -40,7 +40,7 @@ pub enum Merit {
 /// How an uncertain bias is taken.
 #[derive(Clone, Copy, Debug)]
 pub enum Attitude {
-    /// As large as it may be: by one standard error. What is not known to be good is not taken for it.
+    /// As large as it may be: by one standard error, and half of that at least. What is not known to be good is not taken for it.
     Careful,
     /// As small as it may be: by two.
     Hopeful,
@@ -49,12 +49,13 @@ pub enum Attitude {
 impl Forecast {
     /// The squared bias that is to be reckoned with, of light whose bias is `share` of what was measured.
     fn bias(&self, attitude: Attitude, share: f64) -> f64 {
-        let deviations = match attitude {
-            Attitude::Careful => 1.0,
-            Attitude::Hopeful => -2.0,
-        };
         let ErrorParts { bias, bias_deviation, .. } = self.parts;
-        share * share * (bias.max(0.0) + deviations * bias_deviation).max(0.0)
+        let bias = match attitude {
+            // An estimate below 0 makes a bias less likely, but not out of the question.
+            Attitude::Careful => (bias + bias_deviation).max(bias_deviation / 2.0),
+            Attitude::Hopeful => (bias.max(0.0) - 2.0 * bias_deviation).max(0.0),
+        };
+        share * share * bias
     }
 
     /// Whether a bias can be told from none.
@@ -155,7 +156,7 @@ mod tests {
         else {
             panic!("no error was wanted")
         };
-        assert!((careful - 0.004_f64.sqrt()).abs() < 1e-6 && hopeful < 1e-4, "{careful} {hopeful}");
+        assert!((careful - 0.003_f64.sqrt()).abs() < 1e-6 && hopeful < 1e-4, "{careful} {hopeful}");
         assert!(!unknown.is_biased() && forecast(0.005, 0.004, 0.0, 0.01).is_biased());
     }
 
