@@ -1,6 +1,7 @@
 //! Planes of sides, and what they alone tell of who can see whom.
 
 use super::surface::Surfaces;
+use crate::math::polygon::rounding_along;
 use glam::{DVec3, Vec3A};
 
 /// Where there are more pairs of sides than this to look at, two are taken to see each other: more would take longer
@@ -51,16 +52,23 @@ pub fn may_see(surfaces: &Surfaces, from: &[usize], to: &[usize], tolerance: f64
 
 /// The same, but sides that face each other like parallel plates may do so across the smallest gap.
 pub fn may_see_across_gaps(surfaces: &Surfaces, from: &[usize], to: &[usize], tolerance: f64) -> bool {
-    any_faces(surfaces, from, to, |this, other| if this.normal.dot(other.normal) < FACING { 0.0 } else { tolerance })
+    any_faces(surfaces, from, to, |this, other| {
+        let planes = [this, other].map(|side| Plane::new(surfaces, side));
+        if planes[0].normal.dot(planes[1].normal) >= FACING {
+            return tolerance;
+        }
+        let corners = [this, other].map(|side| surfaces.corners_of(side / 2)).concat();
+        rounding_along(planes[0].normal, corners.into_iter().map(|corner| corner.as_dvec3()))
+    })
 }
 
-fn any_faces(surfaces: &Surfaces, from: &[usize], to: &[usize], tolerance: impl Fn(&Plane, &Plane) -> f64) -> bool {
+fn any_faces(surfaces: &Surfaces, from: &[usize], to: &[usize], tolerance: impl Fn(usize, usize) -> f64) -> bool {
     let mut pairs = 0;
     from.iter().any(|&this| {
         let plane = Plane::new(surfaces, this);
         to.iter().any(|&other| {
             let facing = Plane::new(surfaces, other);
-            let tolerance = tolerance(&plane, &facing);
+            let tolerance = tolerance(this, other);
             pairs += 1;
             pairs > MOST_PAIRS
                 || plane.faces(surfaces.corners_of(other / 2), tolerance)

@@ -71,7 +71,7 @@ fn the_error_of_photons_is_told_apart_into_noise_and_bias() {
     let folder = folder();
     let passes = "solve cornell-box --method photon-map --photons 20000 --passes 4 --accuracy --json";
     let accuracy = json(&folder, passes)["accuracy"].take();
-    let known = ["bias", "error", "error_uncertainty", "floor", "noise", "paths", "points"];
+    let known = ["bias", "error", "error_below_percent", "error_uncertainty", "floor", "noise", "paths", "points"];
     assert_eq!(keys(&accuracy), known);
     let [rms, noise, bias] = ["error", "noise", "bias"].map(|key| number(&accuracy[key]));
     assert!(noise > 0.0 && bias > 0.0 && (noise.hypot(bias) / rms - 1.0).abs() < 1e-9, "{accuracy}");

@@ -184,19 +184,23 @@ fn light_on_a_black_floor_is_known_or_its_lack_is_told() {
     assert!(single["points"][0]["standard_error"][0].is_null(), "{single}");
 }
 
-/// A closed room of which every surface reflects all light: no photon is ever absorbed.
+/// A lamp in a block of glass: light that meets all of its faces at more than the critical angle never leaves it, nor is it
+/// absorbed but by the lamp, which it hardly ever meets.
 #[test]
 fn truncated_flux_is_warned_of() {
     let folder = folder();
-    let obj = "mtllib w.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nusemtl w\n\
-               f 2 3 4 1\nf 8 7 6 5\nf 5 6 2 1\nf 3 7 8 4\nf 4 8 5 1\nf 6 7 3 2\n";
-    std::fs::write(folder.path().join("white.obj"), obj).expect("a file");
-    std::fs::write(folder.path().join("w.mtl"), "newmtl w\nKd 1 1 1\nKe 1 1 1\n").expect("a file");
-    let solve = "solve white.obj --method photon-map --photons 50";
+    let obj = "mtllib g.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nusemtl glass\n\
+               f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 4 8 7 3\nf 1 5 8 4\nf 2 3 7 6\n\
+               v 0.5 0.5 0.5\nv 0.5 0.5 0.501\nv 0.501 0.5 0.501\nv 0.501 0.5 0.5\nusemtl lamp\nf 9 10 11 12\n\
+               v -1 -1 -1\nv -1 -1 2\nv 2 -1 2\nv 2 -1 -1\nusemtl floor\nf 13 14 15 16\n";
+    std::fs::write(folder.path().join("block.obj"), obj).expect("a file");
+    let mtl = "newmtl glass\nKd 0 0 0\nNi 1.5\nillum 7\nnewmtl lamp\nKd 0 0 0\nKe 1 1 1\nnewmtl floor\nKd 0 0 0\n";
+    std::fs::write(folder.path().join("g.mtl"), mtl).expect("a file");
+    let solve = "solve block.obj --method photon-map --photons 200";
     let report = json(&folder, &format!("{solve} --json"));
     let [emitted, truncated] = ["emitted", "truncated"].map(|name| number(&report["energy"][name]));
     let warnings = report["warnings"].as_array().expect("a list");
-    assert!(warnings.len() == 1 && truncated > 0.9 * emitted, "{report}");
+    assert!(warnings.len() == 1 && truncated > 0.05 * emitted, "{report}");
     assert_contains(warnings[0].as_str().expect("text"), &["% of the emitted flux is truncated", "radiosity"]);
     assert_contains(&printed(&folder, solve), &["warning: ", "% of the emitted flux is truncated"]);
 }

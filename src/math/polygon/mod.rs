@@ -26,6 +26,15 @@ pub fn vector_area(corners: &[DVec3]) -> DVec3 {
     corners.windows(2).map(|pair| (pair[0] - first).cross(pair[1] - first)).sum::<DVec3>() * 0.5
 }
 
+/// How far points with these coordinates, in single precision, are off along a unit normal, m, at most: heights of less may be
+/// rounding. It is 0 along an axis in whose direction all coordinates are 0.
+pub fn rounding_along(normal: DVec3, corners: impl IntoIterator<Item = DVec3>) -> f64 {
+    // Each corner of two polygons, the normal itself, and the difference of two corners.
+    const ROUNDINGS: f64 = 4.0;
+    let largest = corners.into_iter().fold(DVec3::ZERO, |largest, corner| largest.max(corner.abs()));
+    ROUNDINGS * f64::from(f32::EPSILON) * normal.abs().dot(largest)
+}
+
 /// Copies the part of a convex polygon on the positive side of the plane through `point` into `clipped`, relative to
 /// `point`, and returns its number of corners (Sutherland, Hodgman 1974). One plane adds at most one corner; where all
 /// corners are in the plane but for rounding there may be up to twice as many.

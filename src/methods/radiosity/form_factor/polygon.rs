@@ -1,7 +1,7 @@
 //! Form factor from a receiving element to a shooting patch by a formula, without regard to what stands between.
 
 use super::centroid::{Facet, centroid, disc};
-use crate::math::polygon::{Plate, form_factor, vector_area};
+use crate::math::polygon::{Plate, form_factor, rounding_along, vector_area};
 use crate::mesh::{Element, Mesh, Patch};
 use crate::solution::Zero;
 use glam::{DVec3, Vec3A};
@@ -50,9 +50,10 @@ impl Shooter {
 
     /// Why no part of the receiving patch can see the front of the shooter, whatever stands between them, or `None` if
     /// some may: each reaches more than `tolerance` (m) above the other's plane. Patches of one plane do not, whatever
-    /// their corners were rounded to. Of those that face each other, however near, all that is above counts.
+    /// their corners were rounded to. Of those that face each other, however near, all
+    /// that is more than rounding counts.
     pub fn out_of_sight(&self, receiver: &Patch, tolerance: f32) -> Option<Zero> {
-        let tolerance = if receiver.normal.dot(self.normal) < FACING { 0.0 } else { tolerance };
+        let tolerance = if receiver.normal.dot(self.normal) < FACING { self.rounding(receiver) } else { tolerance };
         let center = self.facet.center.as_vec3a();
         let height = |corner: &glam::Vec3| (Vec3A::from(*corner) - center).dot(self.normal);
         let above_receiver = |corner: &DVec3| (corner.as_vec3a() - receiver.center).dot(receiver.normal) > tolerance;
@@ -64,6 +65,12 @@ impl Shooter {
         }
         let is_flat = corners.iter().all(|corner| height(corner).abs() <= tolerance);
         Some(if is_flat && receiver.normal.dot(self.normal) > 0.0 { Zero::SamePlane } else { Zero::FacesAway })
+    }
+
+    /// Heights above the planes of shooter and receiver that may be rounding, m, where these are parallel.
+    fn rounding(&self, receiver: &Patch) -> f32 {
+        let of_receiver = receiver.corners().iter().map(|corner| corner.as_dvec3());
+        rounding_along(self.facet.normal, self.corners[..self.count].iter().copied().chain(of_receiver)) as f32
     }
 
     /// Form factor from an element with this unit normal to the shooter.
