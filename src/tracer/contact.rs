@@ -5,10 +5,9 @@
 //! triangles, whose corners are exact in double precision.
 //!
 //! Where two polygons coincide, so that rounding of their corners decides which one is in front at which place, they have one
-//! order all over: as if each were moved back from its front by an infinitesimal distance. Glass that stands on a floor has
-//! an infinitesimal gap below it, as in the limit of a small gap. The two sides of a panel, polygons with the same corners
-//! back to back, are moved towards their fronts instead, so that both are seen. Of polygons that face alike the one that
-//! comes later lies on top: a rug on a floor.
+//! order all over: as if each were moved towards its front by an infinitesimal distance, those that come later farther. So
+//! the two sides of a panel, or of a wall between two rooms, are seen each from its own side, a rug lies on the floor that comes
+//! before it, and glass that stands on a floor is in optical contact with it.
 
 use glam::{DVec3, Vec3};
 
@@ -26,12 +25,10 @@ pub struct Facet {
     polygon: u32,
 }
 
-/// How exact single precision is, and which polygons are sides of one panel.
-pub struct Contact<T> {
+/// Decides where single precision does not.
+pub struct Contact {
     /// Half-width of the zone in which single precision decides nothing, m.
     pub slack: f64,
-    /// Whether two polygons have the same corners.
-    pub are_twins: T,
 }
 
 impl Facet {
@@ -39,6 +36,11 @@ impl Facet {
         let corners = corners.map(|corner| corner.as_dvec3());
         let [a, b, c] = corners;
         Self { corners, normal: (b - a).cross(c - a).normalize_or_zero(), polygon }
+    }
+
+    /// Whether it has no area, so that no ray meets it.
+    pub fn is_line(&self) -> bool {
+        self.normal == DVec3::ZERO
     }
 
     /// Distance of a point before the front, m; negative behind.
@@ -71,12 +73,11 @@ impl Facet {
     }
 }
 
-impl<T: Fn(u32, u32) -> bool> Contact<T> {
+impl Contact {
     /// How far a ray goes in this unit direction, from a point in the plane of one facet, until it meets the other, m; `None`
     /// if it does not.
     pub fn distance(&self, from: &Facet, point: DVec3, to: &Facet, direction: DVec3) -> Option<f64> {
-        if to.normal == DVec3::ZERO {
-            // A line, which nothing meets.
+        if to.is_line() {
             return None;
         }
         // Single precision found the crossing, and may have taken one of two triangles that share an edge for the other.
@@ -100,6 +101,9 @@ impl<T: Fn(u32, u32) -> bool> Contact<T> {
     /// Whether rounding decides which of the two is in front: they are in one plane but for rounding, and the smaller one is
     /// not wholly on one side of the other.
     fn coincide(&self, one: &Facet, other: &Facet) -> bool {
+        if one.is_line() || other.is_line() {
+            return false;
+        }
         let (small, large) =
             if one.longest_edge_squared() < other.longest_edge_squared() { (one, other) } else { (other, one) };
         let heights = small.corners.map(|corner| large.height(corner));
@@ -111,17 +115,10 @@ impl<T: Fn(u32, u32) -> bool> Contact<T> {
 
     /// The order of polygons that coincide.
     fn is_ranked_before(&self, first: &Facet, second: &Facet, direction: DVec3) -> bool {
-        let is_panel = (self.are_twins)(first.polygon, second.polygon);
-        // Higher is farther along the ray: fronts of panels, and backs of all others.
+        // Higher is farther along the ray.
         let rank = |facet: &Facet| {
-            let is_facing_along = facet.normal.dot(direction) > 0.0;
-            let place = i64::from(facet.polygon);
-            match (is_facing_along, is_panel) {
-                (true, true) => (1, place),
-                (false, true) => (0, -place),
-                (true, false) => (0, place),
-                (false, false) => (1, -place),
-            }
+            let place = i64::from(facet.polygon) + 1;
+            if facet.normal.dot(direction) > 0.0 { place } else { -place }
         };
         rank(first) < rank(second)
     }
@@ -130,6 +127,7 @@ impl<T: Fn(u32, u32) -> bool> Contact<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::cmp::Ordering;
 
     const UP: [[usize; 3]; 2] = [[0, 1, 2], [0, 2, 1]];
 
@@ -138,43 +136,41 @@ mod tests {
         Facet::new(&UP[usize::from(!faces_up)].map(|corner| corners[corner]), polygon)
     }
 
-    fn contact(are_twins: impl Fn(u32, u32) -> bool) -> Contact<impl Fn(u32, u32) -> bool> {
-        Contact { slack: 1e-3, are_twins }
-    }
+    const CONTACT: Contact = Contact { slack: 1e-3 };
 
     #[test]
     fn both_sides_of_a_panel_are_seen() {
         let (up, down) = (facet(0, 1.0, true), facet(1, 1.0, false));
-        let contact = contact(|_, _| true);
         let point = DVec3::ONE;
-        assert_eq!(contact.distance(&up, point, &down, DVec3::Y), None);
-        assert_eq!(contact.distance(&down, point, &up, -DVec3::Y), None);
-        assert!(contact.is_before(&up, &down, point + DVec3::Y, -DVec3::Y));
-        assert!(contact.is_before(&down, &up, point - DVec3::Y, DVec3::Y));
+        assert_eq!(CONTACT.distance(&up, point, &down, DVec3::Y), None);
+        assert_eq!(CONTACT.distance(&down, point, &up, -DVec3::Y), None);
+        // Through the panel, the other side is met.
+        assert_eq!(CONTACT.distance(&up, point, &down, -DVec3::Y), Some(0.0));
+        assert!(CONTACT.is_before(&up, &down, point + DVec3::Y, -DVec3::Y));
+        assert!(CONTACT.is_before(&down, &up, point - DVec3::Y, DVec3::Y));
     }
 
     #[test]
-    fn what_stands_on_a_floor_has_an_infinitesimal_gap_below_it() {
-        let (floor, bottom) = (facet(0, 1.0, true), facet(1, 1.0, false));
-        let contact = contact(|_, _| false);
-        let point = DVec3::ONE;
-        assert_eq!(contact.distance(&floor, point, &bottom, DVec3::Y), Some(0.0));
-        assert_eq!(contact.distance(&bottom, point, &floor, -DVec3::Y), Some(0.0));
-        assert_eq!(contact.distance(&bottom, point, &floor, DVec3::Y), None);
-        assert!(contact.is_before(&bottom, &floor, point + DVec3::Y, -DVec3::Y));
-        assert!(!contact.is_before(&floor, &bottom, point + DVec3::Y, -DVec3::Y));
-        // A rug that comes later in the file is met first from above, and last from below.
-        let rug = facet(2, 1.0, true);
-        assert!(contact.is_before(&rug, &floor, point + DVec3::Y, -DVec3::Y));
-        assert!(contact.is_before(&floor, &rug, point - DVec3::Y, DVec3::Y));
+    fn polygons_that_coincide_have_one_order_however_many_there_are() {
+        let facets = [(0, true), (1, false), (2, true), (3, false)].map(|(polygon, up)| facet(polygon, 1.0, up));
+        for direction in [DVec3::Y, -DVec3::Y] {
+            let mut order: Vec<usize> = (0..facets.len()).collect();
+            let is_before =
+                |a: usize, b: usize| CONTACT.is_before(&facets[a], &facets[b], DVec3::ONE - direction, direction);
+            order.sort_by(|&a, &b| if is_before(a, b) { Ordering::Less } else { Ordering::Greater });
+            // The fronts that face the ray, the one that comes last on top, then the backs, in the opposite order.
+            assert_eq!(order, if direction.y > 0.0 { [3, 1, 0, 2] } else { [2, 0, 1, 3] });
+            assert!(
+                (0..4).all(|i| (i + 1..4).all(|j| is_before(order[i], order[j]) && !is_before(order[j], order[i])))
+            );
+        }
     }
 
     #[test]
     fn what_is_a_hair_before_a_surface_is_met_and_what_is_a_hair_behind_is_not() {
         let (floor, above) = (facet(0, 256.0, true), facet(1, 256.0_f32.next_up(), false));
-        let contact = contact(|_, _| false);
         let point = floor.project(DVec3::new(1.0, 256.1, 1.0));
-        let distance = contact.distance(&floor, point, &above, DVec3::Y);
+        let distance = CONTACT.distance(&floor, point, &above, DVec3::Y);
         assert!(distance.is_some_and(|distance| (distance - 2.0_f64.powi(-15)).abs() < 1e-12), "{distance:?}");
         assert_eq!(contact.distance(&floor, point, &above, -DVec3::Y), None);
         let along = DVec3::new(1.0, 1e-6, 0.0).normalize();

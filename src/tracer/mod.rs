@@ -225,7 +225,8 @@ impl Tracer {
     fn distance_between(&self, from: SurfacePoint, triangle: usize, direction: Vec3A) -> Option<f32> {
         let [first, second] = self.parts[from.polygon as usize].map(|part| self.facet(part));
         let point = from.point.as_dvec3();
-        let start = if first.contains(first.project(point), 0.0) { first } else { second };
+        let is_on_first = !first.is_line() && first.contains(first.project(point), 0.0);
+        let start = if is_on_first || second.is_line() { first } else { second };
         let to = self.facet(triangle as u32);
         let distance = self.contact().distance(&start, start.project(point), &to, direction.as_dvec3())?;
         Some((distance * f64::from(self.frame_from_world)) as f32)
@@ -239,25 +240,12 @@ impl Tracer {
         self.contact().is_before(&first, &second, ray.origin.as_dvec3(), ray.direction.as_dvec3())
     }
 
-    fn contact(&self) -> Contact<impl Fn(u32, u32) -> bool> {
-        Contact {
-            slack: f64::from(self.offset * (SLACK_ULPS / OFFSET_ULPS)),
-            are_twins: |one, other| self.are_twins(one, other),
-        }
+    fn contact(&self) -> Contact {
+        Contact { slack: f64::from(self.offset * (SLACK_ULPS / OFFSET_ULPS)) }
     }
 
     fn facet(&self, triangle: u32) -> Facet {
         Facet::new(&self.corners[triangle as usize], self.owners[triangle as usize])
-    }
-
-    /// Whether two polygons have the same corners.
-    fn are_twins(&self, one: u32, other: u32) -> bool {
-        let corners = |polygon: u32| self.parts[polygon as usize].map(|part| self.corners[part as usize]);
-        let are_in = |some: &[[Vec3; 3]; 2], all: &[[Vec3; 3]; 2]| {
-            some.as_flattened().iter().all(|corner| all.as_flattened().contains(corner))
-        };
-        let (one, other) = (corners(one), corners(other));
-        are_in(&one, &other) && are_in(&other, &one)
     }
 
     /// The point of a crossing in world space, a little back on the ray and towards the middle of its triangle.

@@ -138,8 +138,8 @@ impl World {
     }
 
     /// The side nearest to a point among those that face along the unit `normal`, up to a thousandth of the scene's radius
-    /// before or behind the point along the normal; `None` where there is none. Of surfaces that coincide, the one whose
-    /// front faces along the normal.
+    /// before or behind the point along the normal; `None` where there is none. Of surfaces that coincide, the first
+    /// whose front faces along the normal.
     pub fn meet_at(&self, point: Vec3A, normal: Vec3A) -> Option<Hit> {
         let reach = ON_SURFACE * self.bounds.radius();
         let mut ray = Ray::new(point + reach * normal, -normal);
@@ -150,7 +150,7 @@ impl World {
             let Some(hit) = self.tracer.closest_within(&ray, left) else { break };
             let is_nearer = |nearest: Hit| {
                 let gain = distance(&nearest) - distance(&hit);
-                gain > self.tracer.offset() || (gain.abs() <= self.tracer.offset() && hit.is_front)
+                gain > self.tracer.offset() || (gain >= -self.tracer.offset() && hit.is_front && !nearest.is_front)
             };
             if nearest.is_none_or(is_nearer) {
                 nearest = Some(hit);

@@ -94,7 +94,7 @@ fn the_surface_nearest_to_a_point_is_the_one_that_is_meant() {
         let obj = Obj::new().object("floor", "glow").level([0.0, 8.0], 0.0, [0.0, 8.0]);
         build_with(obj.object("ceiling", "glow").level_down([0.0, 8.0], height, [0.0, 8.0]).open(), 0.5)
     };
-    for height in [5e-3, 1e-3, 1e-4, 1e-5] {
+    for height in [5e-3, 1e-3, 1e-4] {
         let world = world(height);
         for (off, side) in [(0.0, (0, true)), (1e-6, (0, true)), (-1e-5, (0, true)), (height, (1, false))] {
             let hit = world.meet_at(Vec3A::new(4.0, off, 4.0), Vec3A::Y).expect("a surface");

@@ -5,7 +5,7 @@ use super::draws::Use;
 use super::eye_path::Tools;
 use crate::effects::Effect;
 use crate::math::rgb::Rgb;
-use crate::math::warp::cosine_above;
+use crate::math::warp::{cosine_above, share_above};
 use crate::methods::mis::power_heuristic;
 use crate::methods::shadows::is_lit;
 use crate::methods::transport::{Bsdf, Surface, Transport};
@@ -41,7 +41,7 @@ impl Samples {
 
 /// Of the directions of diffuse rays, 1/sr.
 fn cosine_pdf(surface: &Surface, direction: Vec3A) -> f32 {
-    direction.dot(surface.normal).max(0.0) / PI
+    direction.dot(surface.normal).max(0.0) / (PI * share_above(surface.normal, surface.facing))
 }
 
 impl Receiver<'_> {

@@ -97,7 +97,8 @@ impl Shooter {
             *to = mesh.vertices[from as usize].as_dvec3();
         }
         let receiver = Plate::new(&corners[..element.corners().len()]);
-        receiver.exchange(&self.plate, TOLERANCE) / receiver.area()
+        // By contours it may be below 0 by rounding.
+        receiver.exchange(&self.plate, TOLERANCE).max(0.0) / receiver.area()
     }
 }
 
