@@ -62,9 +62,16 @@ impl Facet {
         })
     }
 
-    /// Whether the two share an edge.
-    fn adjoins(&self, other: &Self) -> bool {
-        self.corners.iter().filter(|corner| other.corners.contains(corner)).count() >= 2
+    /// Whether the two share an edge, and if so whether they lie on one side of it, so that they overlap where they are in one
+    /// plane.
+    fn overlaps_at_edge(&self, other: &Self) -> Option<bool> {
+        let is_shared = |corner: &&DVec3| other.corners.contains(corner);
+        let shared: Vec<DVec3> = self.corners.iter().filter(is_shared).copied().collect();
+        let [from, to] = *shared else { return (shared.len() == 3).then_some(true) };
+        let opposite = |facet: &Self| facet.corners.into_iter().find(|corner| !shared.contains(corner)).unwrap_or(from);
+        let edge = to - from;
+        let [mine, others] = [self, other].map(|facet| edge.cross(opposite(facet) - from));
+        Some(mine.dot(others) > 0.0)
     }
 
     fn longest_edge_squared(&self) -> f64 {
@@ -74,19 +81,23 @@ impl Facet {
 }
 
 impl Contact {
-    /// How far a ray goes in this unit direction, from a point in the plane of one facet, until it meets the other, m; `None`
-    /// if it does not.
-    pub fn distance(&self, from: &Facet, point: DVec3, to: &Facet, direction: DVec3) -> Option<f64> {
-        if to.is_line() {
+    /// How far a ray goes in this unit direction, from a point in the plane of the first facet of one polygon, until it meets the
+    /// first facet of another, m; `None` if it does not. Each polygon is given by all its facets.
+    pub fn distance(&self, from: &[Facet; 2], point: DVec3, to: &[Facet; 2], direction: DVec3) -> Option<f64> {
+        let (start, end) = (&from[0], &to[0]);
+        if end.is_line() {
             return None;
         }
-        // Single precision found the crossing, and may have taken one of two triangles that share an edge for the other.
-        let margin = if from.adjoins(to) { 0.0 } else { self.slack };
-        if self.coincide(from, to) && to.contains(to.project(point), margin) {
-            return self.is_ranked_before(from, to, direction).then_some(0.0);
+        let at_edges = || from.iter().flat_map(|one| to.iter().map(|other| one.overlaps_at_edge(other)));
+        let are_beside = at_edges().any(|overlaps| overlaps == Some(false)) && at_edges().all(|o| o != Some(true));
+        // Single precision found the crossing, and may have taken one of two facets that share an edge for the other.
+        let contains = |point, margin| to.iter().any(|facet| !facet.is_line() && facet.contains(point, margin));
+        if !are_beside && self.coincide(start, end) && contains(end.project(point), 0.0) {
+            return self.is_ranked_before(start, end, direction).then_some(0.0);
         }
-        let distance = -to.height(point) / to.normal.dot(direction);
-        (distance > 0.0 && to.contains(point + distance * direction, margin)).then_some(distance)
+        let distance = -end.height(point) / end.normal.dot(direction);
+        let margin = if are_beside { 0.0 } else { self.slack };
+        (distance > 0.0 && contains(point + distance * direction, margin)).then_some(distance)
     }
 
     /// Whether a ray meets the first facet before the second, both of which it meets.
@@ -142,10 +153,10 @@ mod tests {
     fn both_sides_of_a_panel_are_seen() {
         let (up, down) = (facet(0, 1.0, true), facet(1, 1.0, false));
         let point = DVec3::ONE;
-        assert_eq!(CONTACT.distance(&up, point, &down, DVec3::Y), None);
-        assert_eq!(CONTACT.distance(&down, point, &up, -DVec3::Y), None);
+        assert_eq!(CONTACT.distance(&[up; 2], point, &[down; 2], DVec3::Y), None);
+        assert_eq!(CONTACT.distance(&[down; 2], point, &[up; 2], -DVec3::Y), None);
         // Through the panel, the other side is met.
-        assert_eq!(CONTACT.distance(&up, point, &down, -DVec3::Y), Some(0.0));
+        assert_eq!(CONTACT.distance(&[up; 2], point, &[down; 2], -DVec3::Y), Some(0.0));
         assert!(CONTACT.is_before(&up, &down, point + DVec3::Y, -DVec3::Y));
         assert!(CONTACT.is_before(&down, &up, point - DVec3::Y, DVec3::Y));
     }
@@ -170,10 +181,10 @@ mod tests {
     fn what_is_a_hair_before_a_surface_is_met_and_what_is_a_hair_behind_is_not() {
         let (floor, above) = (facet(0, 256.0, true), facet(1, 256.0_f32.next_up(), false));
         let point = floor.project(DVec3::new(1.0, 256.1, 1.0));
-        let distance = CONTACT.distance(&floor, point, &above, DVec3::Y);
+        let distance = CONTACT.distance(&[floor; 2], point, &[above; 2], DVec3::Y);
         assert!(distance.is_some_and(|distance| (distance - 2.0_f64.powi(-15)).abs() < 1e-12), "{distance:?}");
-        assert_eq!(contact.distance(&floor, point, &above, -DVec3::Y), None);
+        assert_eq!(CONTACT.distance(&[floor; 2], point, &[above; 2], -DVec3::Y), None);
         let along = DVec3::new(1.0, 1e-6, 0.0).normalize();
-        assert_eq!(contact.distance(&floor, point, &above, along), None, "beyond its edge");
+        assert_eq!(CONTACT.distance(&[floor; 2], point, &[above; 2], along), None, "beyond its edge");
     }
 }

@@ -9,8 +9,8 @@
 //! - The triangle test is watertight (Woop, Benthin, Wald 2013): triangles that share an edge leave no gap.
 //! - A ray that leaves a polygon starts on it, and never meets it. What is nearer to its ends than single precision can tell
 //!   is decided in double precision (`contact`), so that a ray passes nothing that touches the surface that it leaves.
-//! - Points of hits keep off the edges of their triangle, and a little back on the ray, so that rounding does not move them
-//!   beyond a surface that meets theirs.
+//! - Points of hits keep off the edges of their triangle, and elsewhere a little back on the ray, so that rounding does not move
+//!   them beyond a surface that meets theirs.
 
 mod contact;
 mod triangle;
@@ -223,12 +223,17 @@ impl Tracer {
     #[cold]
     #[inline(never)]
     fn distance_between(&self, from: SurfacePoint, triangle: usize, direction: Vec3A) -> Option<f32> {
-        let [first, second] = self.parts[from.polygon as usize].map(|part| self.facet(part));
         let point = from.point.as_dvec3();
-        let is_on_first = !first.is_line() && first.contains(first.project(point), 0.0);
-        let start = if is_on_first || second.is_line() { first } else { second };
-        let to = self.facet(triangle as u32);
-        let distance = self.contact().distance(&start, start.project(point), &to, direction.as_dvec3())?;
+        let mut start = self.parts[from.polygon as usize].map(|part| self.facet(part));
+        if start[0].is_line() || !start[0].contains(start[0].project(point), 0.0) && !start[1].is_line() {
+            start.reverse();
+        }
+        let mut end = self.parts[self.owners[triangle] as usize];
+        if end[0] as usize != triangle {
+            end.reverse();
+        }
+        let end = end.map(|part| self.facet(part));
+        let distance = self.contact().distance(&start, start[0].project(point), &end, direction.as_dvec3())?;
         Some((distance * f64::from(self.frame_from_world)) as f32)
     }
 
@@ -248,12 +253,17 @@ impl Tracer {
         Facet::new(&self.corners[triangle as usize], self.owners[triangle as usize])
     }
 
-    /// The point of a crossing in world space, a little back on the ray and towards the middle of its triangle.
+    /// The point of a crossing in world space, moved so little that only rounding is made good: back on the ray, or near an edge
+    /// towards the middle of the triangle, which it must not leave.
     fn inset_point(&self, triangle: &Triangle, crossing: &Crossing, direction: Vec3A) -> Vec3A {
         let inset = self.slack() * (INSET_ULPS / SLACK_ULPS);
-        let point = triangle.point(crossing) - inset * direction;
-        let inwards = triangle.center() - point;
-        let point = point + inwards * (inset * inwards.length_recip()).min(0.5);
+        let point = triangle.point(crossing);
+        let point = if triangle.distance_to_edges(crossing) > 2.0 * inset {
+            point - inset * direction
+        } else {
+            let inwards = triangle.center() - point;
+            point + inwards * (inset * inwards.length_recip()).min(0.5)
+        };
         point / self.frame_from_world + self.center
     }
 

@@ -47,6 +47,14 @@ impl Triangle {
         Vec3A::from_array(self.0.map(|axis| axis.dot(weights)))
     }
 
+    /// The distance of a crossing from the nearest edge, at least.
+    pub fn distance_to_edges(&self, crossing: &Crossing) -> f32 {
+        let [a, b, c] = [0, 1, 2].map(|i| self.corner(i));
+        let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a)).sqrt();
+        let share = (crossing.weights / crossing.weights.element_sum()).min_element();
+        share * self.normal().length() / longest
+    }
+
     /// The centre of gravity.
     pub fn center(&self) -> Vec3A {
         Vec3A::from_array(self.0.map(|axis| axis.element_sum() / 3.0))

@@ -88,17 +88,19 @@ fn all_that_is_emitted_is_absorbed() {
 #[test]
 fn a_panel_shines_both_ways() {
     let square = |y: f32| format!("v -0.5 {y} -0.5\nv -0.5 {y} 0.5\nv 0.5 {y} 0.5\nv 0.5 {y} -0.5\n");
-    let obj = format!(
-        "usemtl lamp\n{}f 1 2 3 4\n{}f 8 7 6 5\nusemtl black\n{}f 12 11 10 9\n{}f 13 14 15 16\n",
-        square(0.0),
-        square(0.0),
-        square(1.0),
-        square(-1.0)
-    );
-    let transport = scene(&obj, MTL);
-    let points = [(Vec3A::Y, Vec3A::NEG_Y), (Vec3A::NEG_Y, Vec3A::Y)];
-    for found in irradiance(&transport, &points, 1024, 0) {
-        assert_all_near(&found, Rgb::new(3.0, 2.0, 1.0) * (PI * 0.239_456_470_460_774) as f32);
+    let walls = format!("usemtl black\n{}f 4 3 2 1\n{}f 5 6 7 8\nusemtl lamp\n", square(1.0), square(-1.0));
+    // As two quads, as triangles cut along one diagonal, and along both.
+    for faces in [
+        ["f 9 10 11 12", "f 16 15 14 13"],
+        ["f 9 10 11\nf 9 11 12", "f 15 14 13\nf 16 15 13"],
+        ["f 9 10 11\nf 9 11 12", "f 16 15 14\nf 16 14 13"],
+    ] {
+        let [up, down] = faces;
+        let transport = scene(&format!("{walls}{}{up}\n{}{down}\n", square(0.0), square(0.0)), MTL);
+        let points = [(Vec3A::Y, Vec3A::NEG_Y), (Vec3A::NEG_Y, Vec3A::Y)];
+        for found in irradiance(&transport, &points, 1024, 0) {
+            assert_all_near(&found, Rgb::new(3.0, 2.0, 1.0) * (PI * 0.239_456_470_460_774) as f32);
+        }
     }
 }
 

@@ -276,7 +276,9 @@ fn a_picked_photon_and_a_picked_point_are_described_and_can_be_forgotten() {
     assert_eq!(click(picked(), "Forget it"), [Action::Unpick]);
     assert_eq!(key(picked(), Modifiers::NONE, Key::Escape), [Action::Unpick]);
     assert_eq!(key(photon_stage(), Modifiers::NONE, Key::Escape), []);
-    let harness = Stage { gathered: Some(gathered()), ..photon_stage() }.window(LARGE);
+    let mut whole = photons();
+    whole.energy.truncated *= 0.01;
+    let harness = Stage { gathered: Some(gathered()), photons: Some(whole), ..photon_stage() }.window(LARGE);
     for text in ["Picked point", "12.0 6.0 3.0_W/m²", "100", "2", "20.0_mm", "75.0_%", "10.0_%"] {
         assert!(harness.query_all_by_label(&thin(text)).next().is_some(), "{text}");
     }

@@ -81,7 +81,7 @@ fn what_was_measured_is_held_against_every_better_truth() {
 
 #[test]
 fn each_run_leaves_a_track_and_another_scene_none() {
-    let worker = on_ticks();
+    let worker = Worker::spawn(None, || ());
     let photons = PhotonSettings { count: 20_000, is_progressive: true, passes: 4, ..PhotonSettings::default() };
     let settings = Settings { photons, ..with_elements(0.2) };
     worker.send(Command::Configure(settings));

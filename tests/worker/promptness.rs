@@ -20,8 +20,8 @@ use std::sync::Arc;
 /// Rays or form factors between two polls of the flag: half of 50 ms where each takes 2 µs, which is eight times what a
 /// ray takes in the Cornell box.
 const MOST_WORK_A_POLL: f64 = 12_500.0;
-/// Rays until a coarse picture is there: 100 ms of two cores at as much.
-const MOST_RAYS_TO_A_PICTURE: u64 = 100_000;
+/// Rays until a coarse picture is there: 150 ms of two cores at as much.
+const MOST_RAYS_TO_A_PICTURE: u64 = 150_000;
 
 fn cornell_box(settings: &Settings) -> Arc<World> {
     let scene = Scene::open("cornell-box").expect("a built-in scene");

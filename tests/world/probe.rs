@@ -105,3 +105,12 @@ fn the_surface_nearest_to_a_point_is_the_one_that_is_meant() {
         assert_eq!(world.meet_at(Vec3A::new(4.0, 1.0, 4.0), Vec3A::Y), None);
     }
 }
+
+/// A rug in the plane of a floor that comes before it in the file.
+#[test]
+fn of_surfaces_in_one_place_the_one_on_top_is_meant() {
+    let obj = Obj::new().object("floor", "glow").level([0.0, 8.0], 0.0, [0.0, 8.0]);
+    let world = build_with(obj.object("rug", "white").level([2.0, 6.0], 0.0, [2.0, 6.0]).open(), 0.5);
+    let met = |x: f32, normal| world.meet_at(Vec3A::new(x, 0.0, 4.1), normal).map(|hit| (hit.polygon, hit.is_front));
+    assert_eq!([met(1.0, Vec3A::Y), met(4.0, Vec3A::Y)], [Some((0, true)), Some((1, true))]);
+}
