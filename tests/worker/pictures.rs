@@ -230,8 +230,11 @@ fn a_picture_on_show_stays_until_the_next_one_is_as_fine() {
 #[test]
 fn each_progressive_pass_gives_one_sample_of_every_pixel() {
     // The picture takes longer than its photons, which wait for it all the same.
-    let (worker, counts) =
-        Fakes::default().image(|_, cancel| crate::fake::step_of(Duration::from_millis(3), cancel)).spawn();
+    let slow = |_, _: &_| {
+        std::thread::sleep(Duration::from_millis(3));
+        Step::Advanced
+    };
+    let (worker, counts) = Fakes::default().image(slow).spawn();
     let loaded = load(&worker, "furnace");
     let photons = PhotonSettings { is_progressive: true, passes: 6, ..loaded.settings.photons };
     let image_settings = ImageSettings { samples: 3, ..loaded.settings.image };
