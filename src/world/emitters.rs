@@ -55,7 +55,8 @@ fn open_view(scene: &Scene, surfaces: &Surfaces, tracer: &Tracer, side: usize, e
     let mut stream = Stream::new(0, LOOK_PASS, side as u64);
     let open = (0..LOOKS).filter(|_| {
         let from = surfaces.place(side, &mut stream);
-        surfaces.bounce(&from, tracer, &mut stream).is_some_and(|place| {
+        // A wall in the plane of the emitter hides neither side.
+        surfaces.bounce_beyond(&from, tracer, &mut stream).is_some_and(|place| {
             let material = &scene.materials[scene.polygons[place.side / 2].material as usize];
             (emitters_count || !material.is_emitter()) && from.point.distance(place.point) > near
         })

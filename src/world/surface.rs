@@ -5,7 +5,7 @@ use crate::math::random::Stream;
 use crate::math::warp::{cosine_hemisphere, frame};
 use crate::mesh::{Region, side_index};
 use crate::scene::{Polygon, Scene};
-use crate::tracer::{Ray, SurfacePoint, Tracer};
+use crate::tracer::{Ray, SPACE, SurfacePoint, Tracer};
 use glam::{DVec3, Vec3, Vec3A};
 
 /// What the exploration of a scene needs to know of each polygon.
@@ -82,8 +82,23 @@ impl Surfaces {
     /// Where a cosine-distributed ray from a place arrives; `None` if it leaves the scene. It goes through every other clear
     /// surface in its way, unbent: what glass lights is lit by way of it, wherever exactly.
     pub fn bounce(&self, from: &Place, tracer: &Tracer, stream: &mut Stream) -> Option<Place> {
-        let direction = frame(from.normal) * cosine_hemisphere(stream.uniform2());
-        let mut start = from.surface_point();
+        self.bounce_from(from.surface_point(), from.normal, tracer, stream)
+    }
+
+    /// The same for a ray that starts beyond what lies in the plane of the place.
+    pub fn bounce_beyond(&self, from: &Place, tracer: &Tracer, stream: &mut Stream) -> Option<Place> {
+        let start = SurfacePoint { point: tracer.lift(from.point, from.normal), polygon: SPACE };
+        self.bounce_from(start, from.normal, tracer, stream)
+    }
+
+    fn bounce_from(
+        &self,
+        mut start: SurfacePoint,
+        normal: Vec3A,
+        tracer: &Tracer,
+        stream: &mut Stream,
+    ) -> Option<Place> {
+        let direction = frame(normal) * cosine_hemisphere(stream.uniform2());
         for _ in 0..MOST_CLEAR {
             let hit = tracer.closest(&Ray::leaving(start, direction))?;
             if !self.is_clear[hit.polygon as usize] || stream.uniform() < 0.5 {
@@ -101,11 +116,11 @@ impl Place {
         SurfacePoint { point: self.point, polygon: (self.side / 2) as u32 }
     }
 
-    /// Whether the two places face each other with nothing between them.
+    /// Whether the two places face each other, by more than rounding, with nothing between them.
     pub fn sees(&self, other: &Place, tracer: &Tracer) -> bool {
         let way = other.point - self.point;
-        way.dot(self.normal) > 0.0
-            && way.dot(other.normal) < 0.0
+        way.dot(self.normal) > tracer.offset()
+            && way.dot(other.normal) < -tracer.offset()
             && tracer.is_unoccluded(self.surface_point(), other.surface_point())
     }
 }
