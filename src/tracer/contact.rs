@@ -62,16 +62,18 @@ impl Facet {
         })
     }
 
-    /// Whether the two share an edge, and if so whether they lie on one side of it, so that they overlap where they are in one
-    /// plane.
-    fn overlaps_at_edge(&self, other: &Self) -> Option<bool> {
-        let is_shared = |corner: &&DVec3| other.corners.contains(corner);
-        let shared: Vec<DVec3> = self.corners.iter().filter(is_shared).copied().collect();
-        let [from, to] = *shared else { return (shared.len() == 3).then_some(true) };
-        let opposite = |facet: &Self| facet.corners.into_iter().find(|corner| !shared.contains(corner)).unwrap_or(from);
-        let edge = to - from;
-        let [mine, others] = [self, other].map(|facet| edge.cross(opposite(facet) - from));
-        Some(mine.dot(others) > 0.0)
+    /// Whether the two share an edge.
+    fn adjoins(&self, other: &Self) -> bool {
+        self.corners.iter().filter(|corner| other.corners.contains(corner)).count() == 2
+    }
+
+    /// Whether the other facet, in the same plane, lies beyond one of this one's edges but for so much, m.
+    fn has_beside(&self, other: &Self, rounding: f64) -> bool {
+        let [a, b, c] = self.corners;
+        [(a, b), (b, c), (c, a)].into_iter().any(|(from, to)| {
+            let outwards = (to - from).cross(self.normal).normalize_or_zero();
+            other.corners.iter().all(|corner| (corner - from).dot(outwards) >= -rounding)
+        })
     }
 
     fn longest_edge_squared(&self) -> f64 {
@@ -88,16 +90,23 @@ impl Contact {
         if end.is_line() {
             return None;
         }
-        let at_edges = || from.iter().flat_map(|one| to.iter().map(|other| one.overlaps_at_edge(other)));
-        let are_beside = at_edges().any(|overlaps| overlaps == Some(false)) && at_edges().all(|o| o != Some(true));
         // Single precision found the crossing, and may have taken one of two facets that share an edge for the other.
         let contains = |point, margin| to.iter().any(|facet| !facet.is_line() && facet.contains(point, margin));
-        if !are_beside && self.coincide(start, end) && contains(end.project(point), 0.0) {
+        let are_in_one_plane = self.coincide(start, end);
+        if are_in_one_plane && self.overlap(from, to) && contains(end.project(point), 0.0) {
             return self.is_ranked_before(start, end, direction).then_some(0.0);
         }
+        let do_adjoin = || from.iter().any(|one| to.iter().any(|other| one.adjoins(other)));
+        let margin = if are_in_one_plane || do_adjoin() { 0.0 } else { self.slack };
         let distance = -end.height(point) / end.normal.dot(direction);
-        let margin = if are_beside { 0.0 } else { self.slack };
         (distance > 0.0 && contains(point + distance * direction, margin)).then_some(distance)
+    }
+
+    /// Whether two polygons in one plane overlap by more than rounding.
+    fn overlap(&self, one: &[Facet; 2], other: &[Facet; 2]) -> bool {
+        let rounding = NEAR * self.slack;
+        let are_apart = |a: &Facet, b: &Facet| a.has_beside(b, rounding) || b.has_beside(a, rounding);
+        one.iter().any(|a| other.iter().any(|b| !are_apart(a, b)))
     }
 
     /// Whether a ray meets the first facet before the second, both of which it meets.

@@ -47,10 +47,11 @@ fn irradiance_at_200_points_is_that_of_brute_force() {
     assert!(mean_square < 1.4 && outside <= 3 * 4, "{mean_square} {outside}");
 }
 
-/// The mean of many short runs is the mean of a long one: nothing depends on how many paths there are.
+/// The mean of many short runs is the mean of a long one: nothing depends on how many paths there are. Only where there are no
+/// caustics: paths find these so seldom that some thousand do not know their own error.
 #[test]
 fn short_runs_are_no_different_from_long_ones() {
-    for name in ["cornell-box", "cornell-spheres", "glossy-floor"] {
+    for name in ["cornell-box", "glossy-floor"] {
         let transport = transport(Scene::open(name).expect("a built-in scene"));
         let oracle = Oracle::new(&transport.world.scene);
         let points: Vec<(Vec3A, Vec3A)> = oracle
