@@ -196,7 +196,7 @@ fn truncated_flux_is_warned_of() {
     std::fs::write(folder.path().join("block.obj"), obj).expect("a file");
     let mtl = "newmtl glass\nKd 0 0 0\nNi 1.5\nillum 7\nnewmtl lamp\nKd 0 0 0\nKe 1 1 1\nnewmtl floor\nKd 0 0 0\n";
     std::fs::write(folder.path().join("g.mtl"), mtl).expect("a file");
-    let solve = "solve block.obj --method photon-map --photons 200";
+    let solve = "solve block.obj --method photon-map --photons 200 --caustic-photons 10";
     let report = json(&folder, &format!("{solve} --json"));
     let [emitted, truncated] = ["emitted", "truncated"].map(|name| number(&report["energy"][name]));
     let warnings = report["warnings"].as_array().expect("a list");
