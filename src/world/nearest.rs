@@ -25,8 +25,8 @@ fn nearest_on_triangle(point: DVec3, [a, b, c]: [DVec3; 3]) -> DVec3 {
     let on_edges = edges.map(|(from, to)| {
         let way = to - from;
         let along = (point - from).dot(way) / way.length_squared();
-        // Of an edge without a length it is not a number, which `max` passes over.
-        from + along.max(0.0).min(1.0) * way
+        // An edge without length has no share along it.
+        from + if along > 0.0 { along.min(1.0) } else { 0.0 } * way
     });
     let nearer = |one: DVec3, other: DVec3| {
         if point.distance_squared(other) < point.distance_squared(one) { other } else { one }

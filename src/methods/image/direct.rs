@@ -56,11 +56,11 @@ impl Receiver<'_> {
 
     /// The part that points of emitters have of it.
     pub fn sample_emitters(&self, samples: Samples, tools: &mut Tools<'_>) -> Rgb {
-        let sum: Rgb = (0..samples.light).map(|i| self.from_emitter(i, samples, tools)).sum();
+        let sum: Rgb = (0..samples.light).map(|i| self.sample_emitter(i, samples, tools)).sum();
         sum / samples.light.max(1) as f32
     }
 
-    fn from_emitter(&self, i: u32, samples: Samples, tools: &mut Tools<'_>) -> Rgb {
+    fn sample_emitter(&self, i: u32, samples: Samples, tools: &mut Tools<'_>) -> Rgb {
         let (choice, at) = tools.draws.numbers(self.is_spread.then_some(Use::Light), i, samples.light);
         let Some(sample) = self.transport.emitters().sample(self.surface, choice, at) else { return Rgb::ZERO };
         let [diffuse, _] = self.bsdf.value(sample.direction);
