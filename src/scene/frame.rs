@@ -8,11 +8,11 @@ use super::Scene;
 use super::doctor::{Finding, FindingKind};
 use glam::{DVec3, Vec3};
 
-/// Lengths below this share of the largest coordinate are lost: ray origins are moved off their surface by 32 ε of it.
+/// Lengths below this share of the largest coordinate are lost: hits are known to 32 ε of it.
 const RESOLUTION: f64 = 32.0 * f32::EPSILON as f64;
 
 /// A scene whose middle is farther from the origin than this many times its extent gets an origin of its own. Up to there,
-/// ray origins are moved off their surface by 32 ε · 16 = 6e-5 of the extent: less than what counts as touching.
+/// hits are known to 32 ε · 16 = 6e-5 of the extent: less than what counts as touching.
 const FARTHEST: f64 = 16.0;
 
 /// Faces beyond an empty gap of more than this many times the extent of what most faces fill are left out. In a frame that

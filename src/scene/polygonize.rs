@@ -9,9 +9,9 @@ use glam::DVec3;
 /// How far the corners of a quad may be apart along its normal, in units of its largest coordinate.
 ///
 /// A quad is sampled on the bilinear surface through its corners and traced as two triangles. Between the two lies at
-/// most half of this distance, and rounding adds at most 1 ε: 9 ε, well inside the 32 ε by which ray origins are moved off
-/// a surface, so no sample of the quad is hidden behind its own triangles. It also is what rounding to single precision, or
-/// to six decimals in a scene of a few metres, does to a flat quad. Anything more is cut into two triangles.
+/// most half of this distance, and rounding adds at most 1 ε: 9 ε, less than the 16 ε within which the tracer decides in double
+/// precision what touches. It also is what rounding to single precision, or to six decimals in a scene of a few metres, does
+/// to a flat quad. Anything more is cut into two triangles.
 const PLANARITY: f64 = 16.0 * f32::EPSILON as f64;
 
 /// Corners lie on one line where twice the area between them is at most this many times their longest edge times what a

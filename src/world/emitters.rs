@@ -64,8 +64,8 @@ fn open_view(scene: &Scene, surfaces: &Surfaces, tracer: &Tracer, side: usize, e
     open.count() as f32 / LOOKS as f32
 }
 
-/// Moves emitters that lie exactly in the plane of another surface a hair towards their front. Where two surfaces
-/// coincide there is no telling which one a ray meets, and both would receive the same light.
+/// Moves emitters that lie exactly in the plane of another surface a hair towards their front, so that they are before it
+/// whichever of the two comes later in the file.
 pub fn move_off_walls(scene: &mut Scene) -> Vec<Finding> {
     let surfaces = Surfaces::new(scene);
     let radius = Bounds::of(surfaces.corners()).radius();

@@ -51,8 +51,7 @@ pub struct World {
     /// Share of the bounces of light that leave the scene, in [0, 1], of those that explored it.
     pub escape_share: f64,
     /// Whether anything may stand between two points that light reaches, or an emitter faces what its light does not reach.
-    /// If not, whatever faces each other sees each other whole, as far as rays can tell: they start off a surface by more
-    /// than anything here is out of place.
+    /// If not, whatever faces each other sees each other whole, but for rounding.
     pub has_occluders: bool,
     /// What light meets.
     pub census: Census,

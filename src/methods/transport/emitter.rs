@@ -116,7 +116,7 @@ impl Emitter {
         SurfacePoint { point, polygon: self.polygon }
     }
 
-    /// A point in proportion to area, off the surface. `which` in [0, 1) chooses the triangle.
+    /// A point in proportion to area. `which` in [0, 1) chooses the triangle.
     pub fn point(&self, which: f32, at: Vec2) -> SurfacePoint {
         self.surface_point(self.points[usize::from(which >= self.first_share)].point(at))
     }
@@ -132,7 +132,7 @@ impl Emitter {
         place.distance_squared(self.center) < self.squared_near_distance
     }
 
-    /// For a place that is near: a unit direction that is uniform over the solid angle, the point there, off the surface, and the
+    /// For a place that is near: a unit direction that is uniform over the solid angle, the point there, and the
     /// density, 1/sr. `which` in [0, 1) chooses the triangle. `None` from behind, and from its own plane, which is as thick as
     /// `rounding`, m. Few places are near, and all others should not carry the code of these along.
     #[inline(never)]

@@ -14,7 +14,7 @@ use std::f64::consts::PI;
 
 /// Points of one low-discrepancy sequence; the next ones belong to another.
 const SEQUENCE: u64 = 1 << 16;
-/// Coordinates of surfaces are known to about this share of how far rays are lifted off them, which is 32 units in the last
+/// Coordinates of surfaces are known to about this share of the tracer's offset, which is 32 units in the last
 /// place: a place that is so near to the plane of an emitter is taken to be in it.
 const ROUNDING: f64 = 1.0 / 16.0;
 /// Marks polygons that do not emit.
