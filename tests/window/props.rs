@@ -214,6 +214,7 @@ pub fn gathered() -> Gathered {
         inside: 0.75,
         relative_error: 0.1,
         used: (0..100).collect(),
+        photons: 100,
         rejected: vec![7, 8],
         ..Gathered::default()
     }
