@@ -161,6 +161,7 @@ impl Tracer {
             tracer: self,
             shear: Shear::new(origin, ray.direction),
             ray,
+            leaving_slope: self.slope_of(ray.leaves, ray.direction),
             slack: self.slack(),
             farthest: limit,
             best: None,
@@ -200,20 +201,22 @@ impl Tracer {
         let shear = Shear::new(origin, direction);
         let [start, end] = ends;
         let slack = self.slack();
+        let slopes = [start, end].map(|end| self.slope_of(end.polygon, direction));
         let is_hit = |i: usize| {
             let Some(crossing) = shear.intersect(&self.triangles[i]) else { return false };
             if self.owners[i] == start.polygon || self.owners[i] == end.polygon {
                 return false;
             }
             let slope = slope(&self.triangles[i], direction).abs();
-            let is_past = |end: SurfacePoint, distance: f32, direction| {
-                if end.polygon != SPACE && distance.abs() * slope <= slack {
+            let is_past = |end: SurfacePoint, end_slope: f32, distance: f32, direction| {
+                if end.polygon != SPACE && distance.abs() * slope.min(end_slope) <= slack {
                     self.distance_between(end, i, direction).is_some()
                 } else {
                     distance >= 0.0
                 }
             };
-            is_past(start, crossing.distance, direction) && is_past(end, distance - crossing.distance, -direction)
+            is_past(start, slopes[0], crossing.distance, direction)
+                && is_past(end, slopes[1], distance - crossing.distance, -direction)
         };
         let ray = frame_ray(origin, direction, distance);
         self.bvh.ray_traverse_miss(ray, |_, i| if is_hit(i) { 0.0 } else { f32::INFINITY })
@@ -243,6 +246,12 @@ impl Tracer {
     fn touches_before(&self, first: usize, second: usize, ray: &Ray) -> bool {
         let [first, second] = [first, second].map(|triangle| self.facet(triangle as u32));
         self.contact().is_before(&first, &second, ray.origin.as_dvec3(), ray.direction.as_dvec3())
+    }
+
+    /// Sine of the elevation of a direction over a polygon; 1 over none.
+    fn slope_of(&self, polygon: u32, direction: Vec3A) -> f32 {
+        let parts = self.parts.get(polygon as usize);
+        parts.map_or(1.0, |parts| slope(&self.triangles[parts[0] as usize], direction).abs())
     }
 
     fn contact(&self) -> Contact {
@@ -293,6 +302,8 @@ struct ClosestHit<'a> {
     tracer: &'a Tracer,
     shear: Shear,
     ray: &'a Ray,
+    /// Sine of the ray's elevation over the polygon that it leaves.
+    leaving_slope: f32,
     slack: f32,
     /// Nothing beyond can come first.
     farthest: f32,
@@ -317,7 +328,9 @@ impl ClosestHit<'_> {
             return f32::INFINITY;
         }
         let slope = slope(&self.tracer.triangles[triangle], self.ray.direction);
-        if self.ray.leaves != SPACE && crossing.distance.abs() * slope.abs() <= self.slack {
+        // Near the planes of both, single precision does not know on which side of an edge the ray passes.
+        let least_slope = slope.abs().min(self.leaving_slope);
+        if self.ray.leaves != SPACE && crossing.distance.abs() * least_slope <= self.slack {
             match self.tracer.distance_between(self.ray.start(), triangle, self.ray.direction) {
                 Some(distance) => crossing.distance = distance,
                 None => return f32::INFINITY,

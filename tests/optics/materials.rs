@@ -75,6 +75,8 @@ fn a_dark_grey_filter_is_read_as_what_is_kept_back() {
         for model in ["illum 7", "d 0"] {
             let (filtering, findings) = material(&format!("Kd 0 0 0\n{model}\n{filter}"));
             let lobes = filtering.lobes();
+            // A body of glass has two boundaries.
+            let passes = if model == "illum 7" { passes.map(f32::sqrt) } else { passes };
             assert_eq!(lobes.filter + lobes.straight, passes, "{filter}");
             assert_eq!(findings.len(), 1, "{filter}: {findings:?}");
         }
