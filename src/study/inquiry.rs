@@ -192,7 +192,7 @@ mod tests {
             if !answer.is_awaited() {
                 return answer.state.clone();
             }
-            assert!(start.elapsed() < Duration::from_secs(60), "{answer:?}");
+            assert!(start.elapsed() < Duration::from_secs(300), "{answer:?}");
             std::thread::sleep(Duration::from_millis(5));
         }
     }
