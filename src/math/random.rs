@@ -47,9 +47,9 @@ pub fn unit_vec4(bits: u64) -> Vec4 {
 /// Point `index` of an Owen-scrambled Sobol sequence (Burley 2020) in dimensions `2 pair` and `2 pair + 1`, in [0, 1)².
 /// Sequences of different seeds are independent; any power-of-two run of one sequence is stratified.
 pub fn sobol2(index: u32, pair: u32, seed: u32) -> Vec2 {
-    let x = sobol_burley::sample(index, 2 * pair, seed);
-    let y = sobol_burley::sample(index, 2 * pair + 1, seed);
-    Vec2::new(x, y)
+    // Four at once take less time than two one by one.
+    let [x, y, z, w] = sobol_burley::sample_4d(index, pair / 2, seed);
+    if pair.is_multiple_of(2) { Vec2::new(x, y) } else { Vec2::new(z, w) }
 }
 
 /// The point of one sample in as many dimensions as a path needs, four at a time: each four are those of a Sobol sequence
@@ -71,7 +71,9 @@ impl PaddedPoint {
 
     /// The coordinates in dimensions `4 set` to `4 set + 3`, in [0, 1)⁴.
     pub fn four(&self, set: u64) -> [f32; 4] {
-        sobol_burley::sample_4d(self.index as u32, 0, hash(self.seed, set, 1) as u32)
+        // Number `set` of a stream: see [`Stream::bits`].
+        let seed = scramble(self.seed.wrapping_add((set + 1).wrapping_mul(GOLDEN)));
+        sobol_burley::sample_4d(self.index as u32, 0, seed as u32)
     }
 }
 

@@ -41,10 +41,12 @@ pub fn cosine_hemisphere(point: Vec2) -> Vec3A {
 /// Seen along `normal`, the hemisphere is a disc, and what is above the plane a half disc and half an ellipse. Each of its
 /// chords in the direction in which `facing` is tilted is the same share of that of the disc, so that stretching these keeps
 /// ratios of areas.
+#[inline]
 pub fn cosine_above(normal: Vec3A, facing: Vec3A, point: Vec2) -> Vec3A {
-    if normal == facing {
-        return frame(normal) * cosine_hemisphere(point);
-    }
+    if normal == facing { frame(normal) * cosine_hemisphere(point) } else { cut_cosine(normal, facing, point) }
+}
+
+fn cut_cosine(normal: Vec3A, facing: Vec3A, point: Vec2) -> Vec3A {
     let around = frame(normal);
     let towards = around.transpose() * facing;
     let tilt = towards.truncate().try_normalize().unwrap_or(Vec2::X);
@@ -60,6 +62,7 @@ pub fn cosine_above(normal: Vec3A, facing: Vec3A, point: Vec2) -> Vec3A {
 
 /// Share of a cosine lobe round `normal` that is above the plane of `facing`, in [1/2, 1]; unit vectors as in
 /// [`cosine_above`].
+#[inline]
 pub fn share_above(normal: Vec3A, facing: Vec3A) -> f32 {
     if normal == facing { 1.0 } else { 0.5 + 0.5 * normal.dot(facing).clamp(0.0, 1.0) }
 }

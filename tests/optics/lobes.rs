@@ -179,11 +179,14 @@ fn directions_have_the_density_that_is_told() {
     for _ in 0..COUNT {
         let Some(sample) = bsdf.sample(light, &mut stream) else { continue };
         let lobe = usize::from(sample.scattering == Scattering::Specular);
-        let expected = if sample.is_sharp { 0.0 } else { bsdf.densities(sample.direction, light)[lobe] };
+        let expected =
+            if sample.is_sharp { 0.0 } else { bsdf.densities(sample.direction, &bsdf.lobe_probabilities(light))[lobe] };
         assert!((sample.density - expected).abs() <= 1e-5 * expected, "{sample:?} {expected}");
         counts[lobe] += u32::from(!sample.is_sharp);
     }
-    let densities = |lobe: usize| over_directions(|direction| bsdf.densities(direction, light)[lobe].into());
+    let densities = |lobe: usize| {
+        over_directions(|direction| bsdf.densities(direction, &bsdf.lobe_probabilities(light))[lobe].into())
+    };
     for (lobe, count) in counts.into_iter().enumerate() {
         let share = f64::from(count) / f64::from(COUNT);
         let error = (share * (1.0 - share) / f64::from(COUNT)).sqrt();

@@ -177,7 +177,7 @@ impl EyePath {
         if glossy == Rgb::ZERO || !is_lit(&self.transport, surface, sample.point, tools.cost) {
             return Rgb::ZERO;
         }
-        let [_, other] = lobe.densities(sample.direction, leg.throughput);
+        let [_, other] = lobe.densities(sample.direction, &lobe.lobe_probabilities(leg.throughput));
         let weight = if self.transport.ignores_occluders { 1.0 } else { power_heuristic(sample.pdf, other) };
         weight * glossy * sample.radiance
     }

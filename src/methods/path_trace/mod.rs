@@ -8,7 +8,7 @@ pub use sensors::{Sensor, Sensors};
 use super::cost::Cost;
 use super::mis::power_heuristic;
 use super::shadows::is_lit;
-use super::transport::{Bsdf, Media, Sample, Surface, Transport};
+use super::transport::{Bsdf, LobeProbabilities, Media, Sample, Surface, Transport};
 use crate::effects::{Effect, Effects, needed};
 use crate::math::random::PaddedPoint;
 use crate::math::rgb::Rgb;
@@ -103,9 +103,13 @@ impl PathTracer {
         let (mut sum, mut throughput, mut narrowing) = (Rgb::ZERO, Rgb::ONE, 1.0);
         for event in 0.. {
             // Of each event, one set of numbers is for the ray to an emitter, and the next for the way on.
-            sum += throughput * narrowing * self.sample_direct(&vertex, throughput, point.four(2 * event), cost);
+            let probabilities = vertex.bsdf.lobe_probabilities(throughput);
+            if vertex.bsdf.has_densities() {
+                let direct = self.sample_direct(&vertex, &probabilities, point.four(2 * event), cost);
+                sum += throughput * narrowing * direct;
+            }
             let [choice, u, v, survives] = point.four(2 * event + 1);
-            let Some(sample) = vertex.bsdf.sample_at(throughput, choice, Vec2::new(u, v)) else { break };
+            let Some(sample) = vertex.bsdf.sample_at(&probabilities, choice, Vec2::new(u, v)) else { break };
             throughput *= sample.weight;
             narrowing *= sample.narrowing;
             let survival = survival(throughput, event, sample.is_sharp);
@@ -165,11 +169,17 @@ impl PathTracer {
     }
 
     /// L, W/(m²·sr), that a place sends on of the light of a point of an emitter.
-    fn sample_direct(&self, vertex: &Vertex, throughput: Rgb, [choice, u, v, _]: [f32; 4], cost: &mut Cost) -> Rgb {
+    fn sample_direct(
+        &self,
+        vertex: &Vertex,
+        probabilities: &LobeProbabilities,
+        [choice, u, v, _]: [f32; 4],
+        cost: &mut Cost,
+    ) -> Rgb {
         let sample = self.transport.emitters().sample(&vertex.surface, choice, Vec2::new(u, v));
         let Some(sample) = sample else { return Rgb::ZERO };
         let values = vertex.bsdf.value(sample.direction);
-        let densities = vertex.bsdf.densities(sample.direction, throughput);
+        let densities = vertex.bsdf.densities(sample.direction, probabilities);
         let mut value = Rgb::ZERO;
         for ((of_lobe, density), scattering) in values.into_iter().zip(densities).zip(Scattering::ALL) {
             if of_lobe != Rgb::ZERO && self.counts(vertex.to_eye.then(scattering)) {

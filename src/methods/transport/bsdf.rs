@@ -75,6 +75,17 @@ enum Lobe {
 
 const LOBES: [Lobe; 6] = [Lobe::Diffuse, Lobe::Glossy, Lobe::Mirror, Lobe::Reflected, Lobe::Refracted, Lobe::Straight];
 
+/// The probability with which each lobe is sampled: in proportion to what it does with some light. They sum to 1, or are all 0
+/// where no lobe does anything.
+#[derive(Clone, Copy, Debug)]
+pub struct LobeProbabilities([f32; LOBES.len()]);
+
+impl LobeProbabilities {
+    fn of(&self, lobe: Lobe) -> f32 {
+        self.0[lobe as usize]
+    }
+}
+
 impl Bsdf {
     /// The lobes of a material at a surface. `index` is the refraction index behind it over that before it.
     pub fn new(lobes: &Lobes, surface: &Surface, towards: Vec3A, index: f32) -> Self {
@@ -100,6 +111,11 @@ impl Bsdf {
     /// ρ of the diffuse lobe.
     pub fn diffuse(&self) -> Rgb {
         self.diffuse
+    }
+
+    /// Whether there is a lobe whose directions have a density.
+    pub fn has_densities(&self) -> bool {
+        self.diffuse != Rgb::ZERO || self.is_glossy()
     }
 
     /// Whether there is a lobe whose directions have no density.
@@ -179,59 +195,52 @@ impl Bsdf {
         [self.diffuse * (cosine / (PI * self.share_above())), glossy]
     }
 
-    /// The densities, 1/sr, with which [`Bsdf::sample`] chooses a direction by way of the diffuse lobe and of the glossy one.
-    pub fn densities(&self, direction: Vec3A, light: Rgb) -> [f32; 2] {
-        let all = self.weight_of_all(light);
+    /// How likely each lobe is sampled where this light, per channel, is to be scattered.
+    #[inline(always)]
+    pub fn lobe_probabilities(&self, light: Rgb) -> LobeProbabilities {
+        let weights = LOBES.map(|lobe| (light * self.share(lobe)).max_element());
+        let sum: f32 = weights.iter().sum();
+        LobeProbabilities(if sum > 0.0 { weights.map(|weight| weight / sum) } else { [0.0; LOBES.len()] })
+    }
+
+    /// The densities, 1/sr, with which [`Bsdf::sample_at`] chooses a direction by way of the diffuse lobe and of the glossy one.
+    pub fn densities(&self, direction: Vec3A, probabilities: &LobeProbabilities) -> [f32; 2] {
         [Lobe::Diffuse, Lobe::Glossy].map(|lobe| {
-            let weight = self.weight(lobe, light);
-            if weight > 0.0 { weight / all * self.density(lobe, direction) } else { 0.0 }
+            let probability = probabilities.of(lobe);
+            if probability > 0.0 { probability * self.density(lobe, direction) } else { 0.0 }
         })
     }
 
     /// A direction in which light goes on, by random numbers: see [`Bsdf::sample_at`].
     pub fn sample(&self, light: Rgb, stream: &mut Stream) -> Option<Sample> {
-        self.sample_at(light, stream.uniform(), stream.uniform2())
+        self.sample_at(&self.lobe_probabilities(light), stream.uniform(), stream.uniform2())
     }
 
-    /// A direction in which light goes on, for numbers in [0, 1). The lobe is chosen in proportion to what it does with
-    /// `light`, the light that is to be scattered, per channel; `None` where no lobe does anything, or where the direction
+    /// A direction in which light goes on, for numbers in [0, 1); `None` where no lobe does anything, or where the direction
     /// leads into the surface.
-    pub fn sample_at(&self, light: Rgb, choice: f32, at: Vec2) -> Option<Sample> {
-        let all = self.weight_of_all(light);
-        let mut choice = choice * all;
+    pub fn sample_at(&self, probabilities: &LobeProbabilities, mut choice: f32, at: Vec2) -> Option<Sample> {
         let mut chosen = None;
         for lobe in LOBES {
-            let weight = self.weight(lobe, light);
-            if weight > 0.0 {
-                chosen = Some((lobe, weight));
-                if choice < weight {
+            let probability = probabilities.of(lobe);
+            if probability > 0.0 {
+                chosen = Some((lobe, probability));
+                if choice < probability {
                     break;
                 }
-                choice -= weight;
+                choice -= probability;
             }
         }
-        let (lobe, weight) = chosen?;
+        let (lobe, probability) = chosen?;
         let (direction, factor) = self.direction(lobe, at)?;
         Some(Sample {
             direction,
-            weight: self.share(lobe) * (factor * all / weight),
+            weight: self.share(lobe) * (factor / probability),
             narrowing: if lobe == Lobe::Refracted { 1.0 / (self.index * self.index) } else { 1.0 },
             scattering: if lobe == Lobe::Diffuse { Scattering::Diffuse } else { Scattering::Specular },
             crosses: matches!(lobe, Lobe::Refracted | Lobe::Straight),
-            density: weight / all * self.density(lobe, direction),
+            density: probability * self.density(lobe, direction),
             is_sharp: !matches!(lobe, Lobe::Diffuse | Lobe::Glossy),
         })
-    }
-
-    /// How likely a lobe is chosen for this light, over [`Bsdf::weight_of_all`].
-    #[inline(always)]
-    fn weight(&self, lobe: Lobe, light: Rgb) -> f32 {
-        (light * self.share(lobe)).max_element()
-    }
-
-    #[inline(always)]
-    fn weight_of_all(&self, light: Rgb) -> f32 {
-        LOBES.iter().map(|&lobe| self.weight(lobe, light)).sum()
     }
 
     /// Share of a cosine lobe round the shading normal that is above the polygon.

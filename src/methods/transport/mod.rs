@@ -10,7 +10,7 @@ mod media;
 mod phong;
 mod surface;
 
-pub use bsdf::{Bsdf, Sample};
+pub use bsdf::{Bsdf, LobeProbabilities, Sample};
 pub use emitters::{Emission, EmitterSample, Emitters};
 pub use filter::colour;
 pub use fresnel::{fresnel_reflectance, reflect, refract};
