@@ -15,7 +15,7 @@ use lightwell::mesh::MeshSettings;
 use lightwell::methods::radiosity::{FullMatrix, Progressive};
 use lightwell::methods::{FormFactorMethod, Method, Settings, Solver};
 use lightwell::scene::Scene;
-use lightwell::tracer::Ray;
+use lightwell::tracer::{Ray, SurfacePoint};
 use lightwell::world::World;
 use rayon::prelude::*;
 use std::hint::black_box;
@@ -33,15 +33,15 @@ fn cornell_box() -> Arc<World> {
     Arc::new(World::build(scene, &settings, &Cancel::default()).expect("a world"))
 }
 
-/// A random element's centre, off its surface, and its normal.
-fn place(world: &World, stream: &mut Stream) -> (Vec3A, Vec3A) {
+/// A random element's centre, and its normal.
+fn place(world: &World, stream: &mut Stream) -> (SurfacePoint, Vec3A) {
     let element = &world.mesh.elements[(stream.bits() % world.mesh.elements.len() as u64) as usize];
-    let normal = world.mesh.patches[element.patch as usize].normal;
-    (world.tracer.lift(element.center, normal), normal)
+    let patch = &world.mesh.patches[element.patch as usize];
+    (patch.surface_point(element.center), patch.normal)
 }
 
 /// Pairs of points on elements and one patch after the other that face each other, four for each element, as in shots.
-fn facing_pairs(world: &World) -> Vec<(Vec3A, Vec3A)> {
+fn facing_pairs(world: &World) -> Vec<(SurfacePoint, SurfacePoint)> {
     let mut stream = Stream::new(1, 0, 0);
     let mut pairs = Vec::new();
     let patches = &world.mesh.patches;
@@ -49,13 +49,13 @@ fn facing_pairs(world: &World) -> Vec<(Vec3A, Vec3A)> {
         let shooter = &patches[(stream.bits() % patches.len() as u64) as usize];
         let shooter_region = shooter.region();
         for element in &world.mesh.elements {
-            let normal = patches[element.patch as usize].normal;
+            let receiver = &patches[element.patch as usize];
             let region = world.mesh.region(element);
             for _ in 0..4 {
-                let from = world.tracer.lift(region.point(stream.uniform2()), normal);
-                let to = world.tracer.lift(shooter_region.point(stream.uniform2()), shooter.normal);
-                let way = to - from;
-                if element.exposed > 0.0 && way.dot(normal) > 0.0 && way.dot(shooter.normal) < 0.0 {
+                let from = receiver.surface_point(region.point(stream.uniform2()));
+                let to = shooter.surface_point(shooter_region.point(stream.uniform2()));
+                let way = to.point - from.point;
+                if element.exposed > 0.0 && way.dot(receiver.normal) > 0.0 && way.dot(shooter.normal) < 0.0 {
                     pairs.push((from, to));
                 }
             }
@@ -71,13 +71,13 @@ fn tracer(criterion: &mut Criterion) {
     group.throughput(Throughput::Elements(RAYS));
     let pairs = facing_pairs(&world);
     group.bench_function("visibility", |bencher| {
-        bencher.iter(|| pairs.par_iter().filter(|(from, to)| world.tracer.is_visible(*from, *to)).count());
+        bencher.iter(|| pairs.par_iter().filter(|(from, to)| world.tracer.is_unoccluded(*from, *to)).count());
     });
     let mut stream = Stream::new(2, 0, 0);
     let rays: Vec<Ray> = (0..RAYS)
         .map(|_| {
-            let (origin, normal) = place(&world, &mut stream);
-            Ray::new(origin, frame(normal) * cosine_hemisphere(stream.uniform2()))
+            let (from, normal) = place(&world, &mut stream);
+            Ray::leaving(from, frame(normal) * cosine_hemisphere(stream.uniform2()))
         })
         .collect();
     group.bench_function("closest", |bencher| {

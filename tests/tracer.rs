@@ -50,7 +50,7 @@ fn a_million_rays_at_edges_and_vertices_all_hit() {
 }
 
 #[test]
-fn no_ray_from_a_lifted_surface_point_leaves_a_closed_mesh_or_meets_its_own_triangle() {
+fn no_ray_from_a_surface_point_leaves_a_closed_mesh_or_meets_its_own_triangle() {
     let shift = Vec3::new(0.25, -0.5, 0.125);
     for mesh in [sphere(4), cube(8)] {
         for scale in SCALES {
@@ -65,7 +65,8 @@ fn no_ray_from_a_lifted_surface_point_leaves_a_closed_mesh_or_meets_its_own_tria
                 let point = a + weights.x * (b - a) + weights.y * (c - a);
                 let inward = -(b - a).cross(c - a).normalize();
                 let direction = frame(inward) * cosine_hemisphere(stream.uniform2());
-                let hit = tracer.closest(&Ray::new(tracer.lift(point, inward), direction));
+                let from = SurfacePoint { point, polygon: index as u32 };
+                let hit = tracer.closest(&Ray::leaving(from, direction));
                 let hit = hit.unwrap_or_else(|| panic!("a ray left through {index} at scale {scale}"));
                 assert_ne!(hit.polygon as usize, index, "a ray met its own triangle at scale {scale}");
                 assert!(!hit.is_front, "a ray from inside met an outside at scale {scale}");
@@ -76,25 +77,25 @@ fn no_ray_from_a_lifted_surface_point_leaves_a_closed_mesh_or_meets_its_own_tria
 
 #[test]
 fn surfaces_a_hair_apart_block_each_other() {
-    // Two shells whose gap is a few times the lift: rays from the inner one must all stop at the outer one at once.
+    // Rays from the inner one of two shells must all stop at the outer one at once.
     for scale in SCALES {
         let inner = placed(&cube(4), scale, Vec3::ZERO);
         let gap = 1e-4;
         let mut triangles = inner.clone();
         triangles.extend(placed(&cube(4), scale * (1.0 + gap), Vec3::ZERO));
         let tracer = tracer(&triangles);
-        assert!(tracer.offset() * 4.0 < gap * scale);
         let mut stream = Stream::new(3, 0, 0);
         for _ in 0..1 << 18 {
             let index = (stream.bits() % inner.len() as u64) as usize;
             let [a, b, c] = inner[index].map(Vec3A::from);
             let weights = lightwell::math::warp::triangle(stream.uniform2());
             let outward = (b - a).cross(c - a).normalize();
-            let origin = tracer.lift(a + weights.x * (b - a) + weights.y * (c - a), outward);
+            let point = a + weights.x * (b - a) + weights.y * (c - a);
+            let from = SurfacePoint { point, polygon: index as u32 };
             let direction = frame(outward) * cosine_hemisphere(stream.uniform2());
-            let hit = tracer.closest(&Ray::new(origin, direction)).expect("the outer shell is closed");
+            let hit = tracer.closest(&Ray::leaving(from, direction)).expect("the outer shell is closed");
             assert!(hit.polygon as usize >= inner.len() && !hit.is_front, "scale {scale}: {hit:?}");
-            assert!(!tracer.is_visible(origin, origin + 4.0 * scale * direction));
+            assert!(!tracer.is_unoccluded(from, SurfacePoint::in_space(point + 4.0 * scale * direction)));
         }
     }
 }
@@ -131,8 +132,8 @@ fn rays_from_far_away_hit_what_they_are_aimed_at() {
 fn distance_and_visibility_agree_with_geometry() {
     let tracer = tracer(&cube(2));
     let (from, to) = (Vec3A::new(0.1, 0.2, 0.3), Vec3A::new(-0.5, 0.7, -0.9));
-    assert!(tracer.is_visible(from, to) && tracer.is_visible(from, from));
-    assert!(!tracer.is_visible(from, Vec3A::new(0.1, 3.0, 0.3)));
+    let sees = |to| tracer.is_unoccluded(SurfacePoint::in_space(from), SurfacePoint::in_space(to));
+    assert!(sees(to) && sees(from) && !sees(Vec3A::new(0.1, 3.0, 0.3)));
     let hit = tracer.closest(&Ray::new(from, Vec3A::Y)).expect("the top");
     assert!((hit.distance - 0.8).abs() < 1e-6 && !hit.is_front);
 }
@@ -141,7 +142,7 @@ fn distance_and_visibility_agree_with_geometry() {
 fn an_empty_scene_stops_nothing() {
     let tracer = tracer(&Vec::new());
     assert!(tracer.closest(&Ray::new(Vec3A::ZERO, Vec3A::X)).is_none());
-    assert!(tracer.is_visible(Vec3A::ZERO, Vec3A::ONE));
+    assert!(tracer.is_free(&Ray::new(Vec3A::ZERO, Vec3A::X), 1.0));
 }
 
 #[test]

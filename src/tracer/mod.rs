@@ -43,8 +43,6 @@ const SLACK_ULPS: f32 = 16.0;
 /// The polygon of points that lie on none.
 pub const SPACE: u32 = u32::MAX;
 
-const IN_SPACE: SurfacePoint = SurfacePoint { point: Vec3A::ZERO, polygon: SPACE };
-
 /// A half-line in world space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
@@ -90,7 +88,11 @@ pub struct Tracer {
     parts: Vec<[u32; 2]>,
     center: Vec3A,
     frame_from_world: f32,
+    world_from_frame: f32,
+    /// m
     offset: f32,
+    /// [`SLACK_ULPS`] in frame units.
+    slack: f32,
 }
 
 impl Ray {
@@ -109,6 +111,13 @@ impl Ray {
     }
 }
 
+impl SurfacePoint {
+    /// On no polygon.
+    pub fn in_space(point: Vec3A) -> Self {
+        Self { point, polygon: SPACE }
+    }
+}
+
 impl Hit {
     /// Where a ray leaves.
     pub fn surface_point(&self) -> SurfacePoint {
@@ -123,11 +132,11 @@ impl Tracer {
         let center = if bounds.is_empty() { Vec3::ZERO } else { bounds.center() };
         let frame_from_world = frame_scale(bounds.extent().max_element() * 0.5);
         let offset = OFFSET_ULPS * f32::EPSILON * bounds.magnitude();
-        let to_frame = |corner: Vec3| ((corner - center) * frame_from_world).to_array();
+        let to_frame = |corner: Vec3A| (corner - Vec3A::from(center)) * frame_from_world;
         let padded: Vec<PaddedTriangle> = triangles
             .iter()
             .map(|(_, corners)| PaddedTriangle {
-                triangle: Triangle::new(corners.map(to_frame)),
+                triangle: Triangle::new(corners, to_frame, frame_from_world),
                 padding: offset * frame_from_world,
             })
             .collect();
@@ -141,7 +150,9 @@ impl Tracer {
             bvh,
             center: center.into(),
             frame_from_world,
+            world_from_frame: 1.0 / frame_from_world,
             offset,
+            slack: offset * frame_from_world * (SLACK_ULPS / OFFSET_ULPS),
         }
     }
 
@@ -162,16 +173,18 @@ impl Tracer {
             shear: Shear::new(origin, ray.direction),
             ray,
             leaving_slope: self.slope_of(ray.leaves, ray.direction),
-            slack: self.slack(),
             farthest: limit,
-            best: None,
+            best: Candidate { triangle: NO_TRIANGLE, crossing: Crossing::default() },
         };
         self.bvh.ray_traverse(frame_ray(origin, ray.direction, limit), &mut RayHit::none(), |_, i| search.visit(i));
-        let Candidate { triangle, crossing, slope } = search.best?;
+        let Candidate { triangle, crossing } = search.best;
+        if triangle == NO_TRIANGLE {
+            return None;
+        }
         Some(Hit {
             polygon: self.owners[triangle],
-            distance: (skipped + crossing.distance) / self.frame_from_world,
-            is_front: slope < 0.0,
+            distance: (skipped + crossing.distance) * self.world_from_frame,
+            is_front: crossing.slope < 0.0,
             point: self.inset_point(&self.triangles[triangle], &crossing, ray.direction),
         })
     }
@@ -179,17 +192,11 @@ impl Tracer {
     /// Whether a ray meets nothing that is not farther away than `reach`, m. It must start in the scene or near it.
     pub fn is_free(&self, ray: &Ray, reach: f32) -> bool {
         let limit = reach * self.frame_from_world;
-        self.is_unobstructed(self.to_frame(ray.origin), ray.direction, limit, [ray.start(), IN_SPACE])
+        let end = SurfacePoint::in_space(ray.origin + reach * ray.direction);
+        self.is_unobstructed(self.to_frame(ray.origin), ray.direction, limit, [ray.start(), end])
     }
 
-    /// Whether nothing stands between two points in space. Points of surfaces should be off these: see [`Tracer::lift`].
-    pub fn is_visible(&self, from: Vec3A, to: Vec3A) -> bool {
-        let (origin, end) = (self.to_frame(from), self.to_frame(to));
-        let distance = origin.distance(end);
-        distance == 0.0 || self.is_unobstructed(origin, (end - origin) / distance, distance, [IN_SPACE; 2])
-    }
-
-    /// Whether nothing stands between two points of different polygons, however near to each other these are.
+    /// Whether nothing stands between two points, of different polygons or in space, however near to each other they are.
     pub fn is_unoccluded(&self, from: SurfacePoint, to: SurfacePoint) -> bool {
         let (origin, end) = (self.to_frame(from.point), self.to_frame(to.point));
         let distance = origin.distance(end);
@@ -200,23 +207,22 @@ impl Tracer {
     fn is_unobstructed(&self, origin: Vec3A, direction: Vec3A, distance: f32, ends: [SurfacePoint; 2]) -> bool {
         let shear = Shear::new(origin, direction);
         let [start, end] = ends;
-        let slack = self.slack();
-        let slopes = [start, end].map(|end| self.slope_of(end.polygon, direction));
         let is_hit = |i: usize| {
-            let Some(crossing) = shear.intersect(&self.triangles[i]) else { return false };
+            let Some(edges) = shear.intersect(&self.triangles[i]) else { return false };
             if self.owners[i] == start.polygon || self.owners[i] == end.polygon {
                 return false;
             }
-            let slope = slope(&self.triangles[i], direction).abs();
-            let is_past = |end: SurfacePoint, end_slope: f32, distance: f32, direction| {
-                if end.polygon != SPACE && distance.abs() * slope.min(end_slope) <= slack {
+            let crossing = shear.crossing(&self.triangles[i], edges);
+            let slope = crossing.slope.abs();
+            let is_past = |end: SurfacePoint, distance: f32, direction| {
+                let least_slope = || slope.min(self.slope_of(end.polygon, direction));
+                if end.polygon != SPACE && distance.abs() * least_slope() <= self.slack {
                     self.distance_between(end, i, direction).is_some()
                 } else {
                     distance >= 0.0
                 }
             };
-            is_past(start, slopes[0], crossing.distance, direction)
-                && is_past(end, slopes[1], distance - crossing.distance, -direction)
+            is_past(start, crossing.distance, direction) && is_past(end, distance - crossing.distance, -direction)
         };
         let ray = frame_ray(origin, direction, distance);
         self.bvh.ray_traverse_miss(ray, |_, i| if is_hit(i) { 0.0 } else { f32::INFINITY })
@@ -251,7 +257,7 @@ impl Tracer {
     /// Sine of the elevation of a direction over a polygon; 1 over none.
     fn slope_of(&self, polygon: u32, direction: Vec3A) -> f32 {
         let parts = self.parts.get(polygon as usize);
-        parts.map_or(1.0, |parts| slope(&self.triangles[parts[0] as usize], direction).abs())
+        parts.map_or(1.0, |parts| self.triangles[parts[0] as usize].slope(direction).abs())
     }
 
     fn contact(&self) -> Contact {
@@ -265,7 +271,7 @@ impl Tracer {
     /// The point of a crossing in world space, moved so little that only rounding is made good: back on the ray, or near an edge
     /// towards the middle of the triangle, which it must not leave.
     fn inset_point(&self, triangle: &Triangle, crossing: &Crossing, direction: Vec3A) -> Vec3A {
-        let inset = self.slack() * (INSET_ULPS / SLACK_ULPS);
+        let inset = self.slack * (INSET_ULPS / SLACK_ULPS);
         let point = triangle.point(crossing);
         let point = if triangle.distance_to_edges(crossing) > 2.0 * inset {
             point - inset * direction
@@ -273,12 +279,7 @@ impl Tracer {
             let inwards = triangle.center() - point;
             point + inwards * (inset * inwards.length_recip()).min(0.5)
         };
-        point / self.frame_from_world + self.center
-    }
-
-    /// Frame units.
-    fn slack(&self) -> f32 {
-        self.offset * self.frame_from_world * (SLACK_ULPS / OFFSET_ULPS)
+        point * self.world_from_frame + self.center
     }
 
     /// A point of a surface, moved off it along the unit normal by more than the rounding error of its coordinates:
@@ -304,33 +305,36 @@ struct ClosestHit<'a> {
     ray: &'a Ray,
     /// Sine of the ray's elevation over the polygon that it leaves.
     leaving_slope: f32,
-    slack: f32,
     /// Nothing beyond can come first.
     farthest: f32,
-    best: Option<Candidate>,
+    best: Candidate,
 }
+
+const NO_TRIANGLE: usize = usize::MAX;
 
 /// A triangle that the ray meets.
 #[derive(Clone, Copy)]
 struct Candidate {
     triangle: usize,
     crossing: Crossing,
-    /// Cosine of the ray's direction with the unit normal.
-    slope: f32,
 }
 
 impl ClosestHit<'_> {
     /// Takes the triangle if it comes first so far; tells how far boxes are still of interest.
     #[inline(always)]
     fn visit(&mut self, triangle: usize) -> f32 {
-        let Some(mut crossing) = self.shear.intersect(&self.tracer.triangles[triangle]) else { return f32::INFINITY };
-        if crossing.distance > self.farthest || self.tracer.owners[triangle] == self.ray.leaves {
+        let Some(edges) = self.shear.intersect(&self.tracer.triangles[triangle]) else { return f32::INFINITY };
+        if self.tracer.owners[triangle] == self.ray.leaves {
             return f32::INFINITY;
         }
-        let slope = slope(&self.tracer.triangles[triangle], self.ray.direction);
+        let mut crossing = self.shear.crossing(&self.tracer.triangles[triangle], edges);
+        if crossing.distance > self.farthest {
+            return f32::INFINITY;
+        }
         // Near the planes of both, single precision does not know on which side of an edge the ray passes.
-        let least_slope = slope.abs().min(self.leaving_slope);
-        if self.ray.leaves != SPACE && crossing.distance.abs() * least_slope <= self.slack {
+        let slope = crossing.slope.abs();
+        let least_slope = slope.min(self.leaving_slope);
+        if self.ray.leaves != SPACE && crossing.distance.abs() * least_slope <= self.tracer.slack {
             match self.tracer.distance_between(self.ray.start(), triangle, self.ray.direction) {
                 Some(distance) => crossing.distance = distance,
                 None => return f32::INFINITY,
@@ -340,30 +344,23 @@ impl ClosestHit<'_> {
         if !(crossing.distance >= 0.0 && crossing.distance <= self.farthest) {
             return f32::INFINITY;
         }
-        let candidate = Candidate { triangle, crossing, slope };
-        if self.best.is_some_and(|best| !self.is_before(&candidate, &best)) {
+        let candidate = Candidate { triangle, crossing };
+        if self.best.triangle != NO_TRIANGLE && !self.is_before(&candidate, &self.best) {
             return f32::INFINITY;
         }
-        self.best = Some(candidate);
+        self.best = candidate;
         // What touches the triangle may come first though its box begins behind.
-        self.farthest = self.farthest.min(crossing.distance + 2.0 * self.slack / slope.abs());
+        self.farthest = self.farthest.min(crossing.distance + 2.0 * self.tracer.slack / slope);
         self.farthest
     }
 
     fn is_before(&self, this: &Candidate, best: &Candidate) -> bool {
         let (near, far) = (this.crossing.distance, best.crossing.distance);
-        if (near - far).abs() * this.slope.abs().max(best.slope.abs()) > 2.0 * self.slack {
+        if (near - far).abs() * this.crossing.slope.abs().max(best.crossing.slope.abs()) > 2.0 * self.tracer.slack {
             return near < far;
         }
         self.tracer.touches_before(this.triangle, best.triangle, self.ray)
     }
-}
-
-/// Cosine of a unit direction with the triangle's unit normal.
-fn slope(triangle: &Triangle, direction: Vec3A) -> f32 {
-    let normal = triangle.normal();
-    let square = normal.length_squared();
-    if square > 0.0 { normal.dot(direction) / square.sqrt() } else { 0.0 }
 }
 
 /// For each polygon its triangles, of which each has an owner.
