@@ -42,7 +42,7 @@ pub fn spread(world: &World, count: usize) -> Vec<ProbePoint> {
         let along = f64::from(which) * area;
         let place = triangles.partition_point(|triangle| triangle.cumulative <= along).min(triangles.len() - 1);
         let triangle = &triangles[place];
-        let point = triangle.region.sampler(Vec3A::ZERO).point(Vec2::new(u, v));
+        let point = triangle.region.sampler().point(Vec2::new(u, v));
         ProbePoint { point, normal: triangle.normal }
     };
     (0..TRIES * count).map(at).filter(is_exposed).take(count).collect()

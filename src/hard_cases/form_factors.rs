@@ -8,7 +8,7 @@ use crate::math::polygon::{area_form_factor, form_factor, parallel_rectangles};
 use crate::mesh::{MeshSettings, Region};
 use crate::methods::Settings;
 use crate::methods::radiosity::pick;
-use glam::{DVec2, DVec3, Vec2, Vec3A};
+use glam::{DVec2, DVec3, Vec2};
 use std::f64::consts::PI;
 
 pub const CASES: &[Case] = &[
@@ -159,7 +159,7 @@ fn point_on_edge(rows: &mut Rows) -> Result<(), Cancelled> {
     let reason = "the edge that the point lies on has no direction from it, and drops out of the sum";
     rows.limit("F from the edge itself, 1/2 from any side", before_the_wall(0.0), exactly(0.0), reason);
     let square = level([0.0, 1.0], 0.0, [0.0, 1.0]).map(|corner| corner.as_vec3a());
-    let samples = Region::new(square, 4).sampler(Vec3A::ZERO);
+    let samples = Region::new(square, 4).sampler();
     let nearest = [Vec2::ZERO, Vec2::X, Vec2::Y, Vec2::ONE].map(|at| {
         let at = DVec2::new(f64::from(samples.point(at).x), f64::from(samples.point(at).z));
         at.min(1.0 - at).min_element()

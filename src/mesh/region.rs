@@ -23,23 +23,22 @@ impl Region {
     /// The point for coordinates in [0, 1]²: uniform by area over a triangle or parallelogram. Cells of a quad's grid are
     /// near enough to parallelograms; of a whole quad that is none, every part comes up, some more often.
     pub fn point(&self, at: Vec2) -> Vec3A {
-        self.sampler_between(self.corners, Vec3A::ZERO).point(at)
+        self.sampler_between(self.corners).point(at)
     }
 
-    /// The points to start or end rays at, moved by `lift`. They keep off the edges, where a lifted point may lie in the
-    /// plane of the next surface.
-    pub fn sampler(&self, lift: Vec3A) -> Sampler {
+    /// The points to start or end rays at. They keep off the edges, where a rounded point may lie beyond the next surface.
+    pub fn sampler(&self) -> Sampler {
         let [a, b, c, d] = self.corners;
         // The middle of a quad, or a point well inside of a triangle, whose last corner stands here twice.
         let inside = 0.25 * (a + b + c + d);
-        self.sampler_between([a, b, c, d].map(|corner| corner.lerp(inside, INSET)), lift)
+        self.sampler_between([a, b, c, d].map(|corner| corner.lerp(inside, INSET)))
     }
 
-    fn sampler_between(&self, [a, b, c, d]: [Vec3A; 4], lift: Vec3A) -> Sampler {
+    fn sampler_between(&self, [a, b, c, d]: [Vec3A; 4]) -> Sampler {
         if self.is_quad {
-            Sampler { origin: a + lift, along: b - a, across: d - a, twist: a - b + c - d, is_quad: true }
+            Sampler { origin: a, along: b - a, across: d - a, twist: a - b + c - d, is_quad: true }
         } else {
-            Sampler { origin: a + lift, along: b - a, across: c - a, twist: Vec3A::ZERO, is_quad: false }
+            Sampler { origin: a, along: b - a, across: c - a, twist: Vec3A::ZERO, is_quad: false }
         }
     }
 

@@ -1,15 +1,12 @@
 //! Planes of sides, and what they alone tell of who can see whom.
 
 use super::surface::Surfaces;
-use crate::math::polygon::rounding_along;
+use crate::math::polygon::{face_each_other, rounding_along};
 use glam::{DVec3, Vec3A};
 
 /// Where there are more pairs of sides than this to look at, two are taken to see each other: more would take longer
 /// than a few thousandths of a second.
 const MOST_PAIRS: usize = 1 << 17;
-
-/// Sides whose normals have a smaller cosine than this face each other like parallel plates.
-const FACING: f64 = -0.5;
 
 /// The plane of a side.
 #[derive(Clone, Copy, PartialEq)]
@@ -54,7 +51,7 @@ pub fn may_see(surfaces: &Surfaces, from: &[usize], to: &[usize], tolerance: f64
 pub fn may_see_across_gaps(surfaces: &Surfaces, from: &[usize], to: &[usize], tolerance: f64) -> bool {
     any_faces(surfaces, from, to, |this, other| {
         let planes = [this, other].map(|side| Plane::new(surfaces, side));
-        if planes[0].normal.dot(planes[1].normal) >= FACING {
+        if !face_each_other(planes[0].normal, planes[1].normal) {
             return tolerance;
         }
         let corners = [this, other].map(|side| surfaces.corners_of(side / 2)).concat();

@@ -75,7 +75,7 @@ impl Surfaces {
 
     /// A random place on a side, a little off its edges. Every other part of the side can come up.
     pub fn place(&self, side: usize, stream: &mut Stream) -> Place {
-        let points = self.regions[side / 2].sampler(Vec3A::ZERO);
+        let points = self.regions[side / 2].sampler();
         Place { side, point: points.point(stream.uniform2()), normal: self.normal(side) }
     }
 

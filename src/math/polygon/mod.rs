@@ -26,6 +26,11 @@ pub fn vector_area(corners: &[DVec3]) -> DVec3 {
     corners.windows(2).map(|pair| (pair[0] - first).cross(pair[1] - first)).sum::<DVec3>() * 0.5
 }
 
+/// Whether polygons with these unit normals face each other like parallel plates, so that next to nothing may be between them.
+pub fn face_each_other(one: DVec3, other: DVec3) -> bool {
+    one.dot(other) < -0.5
+}
+
 /// How far points with these coordinates, in single precision, are off along a unit normal, m, at most: heights of less may be
 /// rounding. It is 0 along an axis in whose direction all coordinates are 0.
 pub fn rounding_along(normal: DVec3, corners: impl IntoIterator<Item = DVec3>) -> f64 {

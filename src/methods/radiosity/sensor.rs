@@ -44,7 +44,7 @@ pub fn irradiance_in_space(world: &World, solution: &Solution, point: Vec3A, nor
 
 /// Share of the patch's points above the horizon that the sensor sees.
 fn visible_share(world: &World, patch: &Patch, point: Vec3A, normal: Vec3A, seed: u32) -> f64 {
-    let targets = patch.region().sampler(Vec3A::ZERO);
+    let targets = patch.region().sampler();
     let from = SurfacePoint { point, polygon: SPACE };
     let (mut above, mut visible) = (0, 0);
     for i in 0..RAYS {

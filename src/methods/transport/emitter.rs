@@ -36,6 +36,7 @@ pub(super) struct Emitter {
     pub area: f64,
     /// Probability that it is chosen, and the least of the numbers in [0, 1) that choose it.
     probability: f64,
+    inverse_probability: f64,
     first_choice: f64,
     /// Of points by area, 1/m².
     density: f32,
@@ -61,7 +62,7 @@ impl Emitter {
         });
         let sampler = |i: usize| {
             let [a, b, c] = triangle(i);
-            Region::new([a, b, c, c], 3).sampler(Vec3A::ZERO)
+            Region::new([a, b, c, c], 3).sampler()
         };
         let low = corners.into_iter().fold(corners[0], Vec3A::min);
         let high = corners.into_iter().fold(corners[0], Vec3A::max);
@@ -82,6 +83,7 @@ impl Emitter {
             radiance,
             area,
             probability: 0.0,
+            inverse_probability: 0.0,
             first_choice: 0.0,
             density: 0.0,
         }
@@ -89,7 +91,7 @@ impl Emitter {
 
     /// Lets numbers from `first_choice` on choose it with this probability.
     pub fn set_probability(&mut self, probability: f64, first_choice: f64) {
-        self.probability = probability;
+        (self.probability, self.inverse_probability) = (probability, probability.recip());
         self.first_choice = first_choice;
         self.density = (probability / self.area) as f32;
     }
@@ -100,7 +102,7 @@ impl Emitter {
 
     /// What is left of a number that chose it, in [0, 1).
     pub fn rest_of(&self, choice: f64) -> f32 {
-        (((choice - self.first_choice) / self.probability) as f32).clamp(0.0, 1.0 - f32::EPSILON)
+        (((choice - self.first_choice) * self.inverse_probability) as f32).clamp(0.0, 1.0 - f32::EPSILON)
     }
 
     pub fn corners(&self) -> &[Vec3A] {

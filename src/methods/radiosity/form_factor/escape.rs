@@ -4,7 +4,6 @@ use super::Shot;
 use crate::math::random::{hash, sobol2};
 use crate::math::warp::{cosine_hemisphere, frame};
 use crate::tracer::Ray;
-use glam::Vec3A;
 use rayon::prelude::*;
 
 /// Rays of one shot. They are stratified: the shares are good to about half a percent.
@@ -17,7 +16,7 @@ const PASS: u64 = 0x6573_6361_7065;
 pub fn share(shot: &Shot) -> f64 {
     let (world, shooter) = (shot.world, shot.shooter());
     let seed = hash(shot.seed, shot.pass, PASS) as u32;
-    let origins = shooter.region().sampler(Vec3A::ZERO);
+    let origins = shooter.region().sampler();
     let count = |i: u32| {
         let from = shooter.surface_point(origins.point(sobol2(i, 0, seed)));
         let direction = frame(shooter.normal) * cosine_hemisphere(sobol2(i, 1, seed));

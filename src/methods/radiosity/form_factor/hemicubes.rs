@@ -94,7 +94,7 @@ fn exposed_middle(world: &World, patch: &Patch) -> Vec3A {
     if elements.iter().all(|element| element.exposed == 1.0) {
         return tracer.lift(patch.center, patch.normal);
     }
-    let points = patch.region().sampler(Vec3A::ZERO);
+    let points = patch.region().sampler();
     let others = (0..TRIES).map(|i| points.point(sobol2(i, 0, 0)));
     let mut all = std::iter::once(patch.center).chain(others);
     let is_exposed = |point: &Vec3A| !is_covered(mesh, tracer, patch.surface_point(*point), patch.normal);

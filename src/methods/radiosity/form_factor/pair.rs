@@ -136,7 +136,7 @@ impl Pair {
             return from.exchange(&Plate::new(&self.to.corners), TOLERANCE) / from.area();
         }
         let points = self.gauss_points();
-        let targets = self.to.region.sampler(Vec3A::ZERO);
+        let targets = self.to.region.sampler();
         let at = |(index, point): (u64, &Vec3A)| {
             let whole = form_factor(point.as_dvec3(), self.from.facet.normal, &self.to.corners);
             if whole == 0.0 {
@@ -162,7 +162,7 @@ impl Pair {
 
     /// Share of cosine-distributed rays from all over the first polygon that land on the front of the second.
     fn by_rays(&self, effort: &Effort) -> f64 {
-        let origins = self.from.region.sampler(Vec3A::ZERO);
+        let origins = self.from.region.sampler();
         let frame = frame(self.from.normal);
         let arrives = |i: &u32| {
             let (index, seed) = (i % SEQUENCE, hash(effort.seed, 1, u64::from(i / SEQUENCE)) as u32);

@@ -5,7 +5,6 @@ use crate::math::random::{hash, sobol2};
 use crate::math::warp::{cosine_hemisphere, frame};
 use crate::solution::Counters;
 use crate::tracer::Ray;
-use glam::Vec3A;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -65,7 +64,7 @@ impl LightRays {
             return ends;
         }
         let seed = hash(shot.seed ^ PASS, shot.pass, batch) as u32;
-        let origins = shooter.region().sampler(Vec3A::ZERO);
+        let origins = shooter.region().sampler();
         let frame = frame(shooter.normal);
         for i in 0..count as u32 {
             let from = shooter.surface_point(origins.point(sobol2(i, 0, seed)));

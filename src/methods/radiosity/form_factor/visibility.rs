@@ -39,7 +39,7 @@ pub struct Sightline<'a> {
 
 impl<'a> Sightline<'a> {
     pub fn new(world: &'a World, shooter: &'a Patch, rays: Rays) -> Self {
-        Self { world, shooter, points: shooter.region().sampler(Vec3A::ZERO), rays }
+        Self { world, shooter, points: shooter.region().sampler(), rays }
     }
 
     /// How many rays go to a receiver with this form factor, at most.
@@ -52,7 +52,7 @@ impl<'a> Sightline<'a> {
     /// points, so that neighbours do not err alike.
     pub fn visible_share(&self, element: &Element, normal: Vec3A, form_factor: f64, shift: u64) -> (f64, u32) {
         let World { mesh, tracer, .. } = self.world;
-        let receiver = mesh.region(element).sampler(Vec3A::ZERO);
+        let receiver = mesh.region(element).sampler();
         let polygon = mesh.patches[element.patch as usize].polygon;
         let rays = self.rays.to(form_factor);
         let is_partly_covered = element.exposed < 1.0;
