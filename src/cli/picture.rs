@@ -93,15 +93,14 @@ fn exr(picture: &Picture, facts: &[(String, String)]) -> Result<Vec<u8>, exr::er
     });
     let mut image = Image::from_channels((width, height), channels);
     for (key, value) in facts {
-        image.attributes.other.insert(latin(key), AttributeValue::Text(latin(value)));
+        image.attributes.other.insert(utf8(key), AttributeValue::Text(utf8(value)));
     }
     let mut bytes = std::io::Cursor::new(Vec::new());
     image.write().to_buffered(&mut bytes)?;
     Ok(bytes.into_inner())
 }
 
-/// The format has Latin-1 only.
-fn latin(text: &str) -> Text {
-    let bytes: Vec<u8> = text.chars().map(|letter| u8::try_from(u32::from(letter)).unwrap_or(b'?')).collect();
-    Text::from_slice_unchecked(&bytes)
+/// In UTF-8, which is what OpenEXR itself reads; its readers refuse a file with anything else.
+fn utf8(text: &str) -> Text {
+    Text::from_slice_unchecked(text.as_bytes())
 }

@@ -58,6 +58,7 @@ fn a_picture_for_an_error_has_it_and_says_how_to_make_it_again() {
     // And so does an EXR.
     let attributes = attributes(&folder, "box.exr");
     assert_contains(&attributes["Promised"], &["an error of 4.00 %"]);
+    assert_contains(&attributes["Achieved"], &["% ± "]);
     assert_eq!((attributes["Scene"].as_str(), attributes["Kept"].as_str()), ("empty-box", "error target met"));
 }
 

@@ -32,7 +32,10 @@ pub fn texts(folder: &TempDir, name: &str) -> BTreeMap<String, String> {
 pub fn attributes(folder: &TempDir, name: &str) -> BTreeMap<String, String> {
     let meta = exr::meta::MetaData::read_from_file(folder.path().join(name), false).expect("a picture");
     let texts = meta.headers[0].own_attributes.other.iter().filter_map(|(name, value)| match value {
-        exr::meta::attribute::AttributeValue::Text(text) => Some((name.to_string(), text.to_string())),
+        exr::meta::attribute::AttributeValue::Text(text) => {
+            let text = String::from_utf8(text.as_slice().to_vec()).expect("what OpenEXR reads");
+            Some((name.to_string(), text))
+        }
         _ => None,
     });
     texts.collect()

@@ -31,7 +31,8 @@ pub struct Candidate {
     pub has_ended: bool,
 }
 
-/// All ways, or one of them.
+/// All ways, or one of them. Those come first that need no light, or as much as is known before: the light of elements may take
+/// any time.
 pub fn of(world: &World, settings: &Settings, way: Option<Way>) -> Vec<Candidate> {
     let image = ImageSettings { gather_rays: GATHER_RAYS, light_rays: LIGHT_RAYS, ..settings.image };
     let size = settings.mesh.element_size.unwrap_or(COARSE * world.element_size);
@@ -49,10 +50,10 @@ pub fn of(world: &World, settings: &Settings, way: Option<Way>) -> Vec<Candidate
     };
     let all = [
         candidate(Way::Reference, Settings { image, ..*settings }),
+        candidate(Way::DiffuseAo, Settings { image, ..*settings }),
+        candidate(Way::FinalGather, Settings { photons, image, ..*settings }),
         candidate(Way::RadiosityDirect, radiosity),
         candidate(Way::RadiosityDirect, Settings { solver: Solver::Southwell, ..radiosity }),
-        candidate(Way::FinalGather, Settings { photons, image, ..*settings }),
-        candidate(Way::DiffuseAo, Settings { image, ..*settings }),
     ];
     all.into_iter().filter(|candidate| way.is_none_or(|way| way == candidate.first.way)).collect()
 }
@@ -142,7 +143,7 @@ mod tests {
 
     #[test]
     fn what_a_turn_brought_is_expected_of_the_next() {
-        let mut candidate = candidates().remove(1);
+        let mut candidate = candidates().remove(3);
         candidate.note(1.0, 0.08, 0);
         candidate.note(3.0, 0.02, 1);
         assert_eq!((candidate.light_seconds(1), candidate.light_seconds(2)), (9.0, 27.0));
@@ -152,7 +153,7 @@ mod tests {
         // A bias that does not fall any further, or that cannot be told from none.
         candidate.note(9.0, 0.02, 2);
         assert!(candidate.has_ended);
-        let mut exact = candidates().remove(3);
+        let mut exact = candidates().remove(2);
         exact.note(1.0, 0.0, 0);
         assert!(!exact.has_ended);
         exact.note(4.0, 0.0, 1);
@@ -163,20 +164,20 @@ mod tests {
     fn of_two_lines_to_the_same_light_the_faster_goes_on() {
         let mut candidates = candidates();
         keep_the_faster(&mut candidates);
-        candidates[1].note(1.0, 0.1, 0);
+        candidates[3].note(1.0, 0.1, 0);
         keep_the_faster(&mut candidates);
         assert_eq!(ended(&candidates), [false; 5]);
-        candidates[2].note(0.5, 0.1, 1);
+        candidates[4].note(0.5, 0.1, 1);
         keep_the_faster(&mut candidates);
-        assert_eq!(ended(&candidates), [false, true, false, false, false]);
+        assert_eq!(ended(&candidates), [false, false, false, true, false]);
     }
 
     #[test]
     fn a_line_that_cannot_begin_stands_in_nobodys_way() {
         let mut candidates = candidates();
-        candidates[2].end();
-        candidates[1].note(1.0, 0.1, 0);
+        candidates[4].end();
+        candidates[3].note(1.0, 0.1, 0);
         keep_the_faster(&mut candidates);
-        assert_eq!(ended(&candidates), [false, false, true, false, false]);
+        assert_eq!(ended(&candidates), [false, false, false, false, true]);
     }
 }

@@ -60,8 +60,8 @@ impl PilotRender {
         }))
     }
 
-    /// Takes samples until there are so many of each pixel in each replicate, and holds them against the truth, which has as
-    /// many. `scale` pixels of the picture stand behind each of these. `None` if stopped, or where there is no light.
+    /// Takes samples until there are so many of each pixel in each replicate, and holds them against the truth, which has at
+    /// least as many. `scale` pixels of the picture stand behind each of these. `None` if stopped, or where there is no light.
     pub fn sample(&mut self, truth: &PixelTruth, samples: u32, scale: f64, cancel: &Cancel) -> Option<Forecast> {
         let start = Instant::now();
         for replicate in &mut self.replicates {

@@ -32,8 +32,8 @@ pub trait Laboratory {
     fn now(&self) -> f64;
     /// Whether the search was stopped.
     fn is_stopped(&self) -> bool;
-    /// The reference gets so many samples in each of its estimates.
-    fn refine_reference(&mut self, samples: u32);
+    /// The reference gets so many samples in each of its estimates, and more of them for so many seconds.
+    fn refine_reference(&mut self, samples: u32, seconds: f64);
     /// Computes the light of a recipe in at most so many seconds; the number of its pilot, and the seconds that it took.
     fn prepare(&mut self, recipe: &Recipe, seconds: f64) -> Option<(usize, f64)>;
     /// Gives a pilot as many samples in each of its estimates, and tells what to expect of its picture.
@@ -61,16 +61,18 @@ pub struct Race<'a, L> {
     runners: Vec<Runner>,
     /// In each estimate of the pilots that are still racing.
     samples: u32,
+    /// What the last samples of pilots took, s.
+    sampling_seconds: f64,
 }
 
 impl<'a, L: Laboratory> Race<'a, L> {
     pub fn new(lab: &'a mut L, targets: Targets, candidates: Vec<Candidate>) -> Self {
-        Self { lab, targets, candidates, runners: Vec::new(), samples: 1 }
+        Self { lab, targets, candidates, runners: Vec::new(), samples: 1, sampling_seconds: 0.0 }
     }
 
     /// All pilots, the best first.
     pub fn run(mut self) -> Vec<Runner> {
-        self.lab.refine_reference(self.samples);
+        self.lab.refine_reference(self.samples, 0.0);
         let mut start = self.lab.now();
         let mut light_seconds = 0.0;
         for candidate in 0..self.candidates.len() {
@@ -79,6 +81,7 @@ impl<'a, L: Laboratory> Race<'a, L> {
             }
         }
         let mut last_round = self.lab.now() - start - light_seconds;
+        self.sampling_seconds = last_round;
         loop {
             self.refine_lights();
             self.drop_losers();
@@ -89,10 +92,13 @@ impl<'a, L: Laboratory> Race<'a, L> {
             }
             self.samples *= 2;
             start = self.lab.now();
-            self.lab.refine_reference(self.samples);
+            // Its noise is in the bias of all of them: it gets as much time as they do together.
+            self.lab.refine_reference(self.samples, self.sampling_seconds);
+            let sampling = self.lab.now();
             for runner in 0..self.runners.len() {
                 self.sample(runner);
             }
+            self.sampling_seconds = self.lab.now() - sampling;
             last_round = self.lab.now() - start;
         }
     }
@@ -179,7 +185,7 @@ impl<'a, L: Laboratory> Race<'a, L> {
     /// Finer light wherever that may pay.
     fn refine_lights(&mut self) {
         while let Some(candidate) = (0..self.candidates.len()).find(|&candidate| self.is_worth_refining(candidate))
-            && !self.lab.is_stopped()
+            && !self.is_over()
         {
             let seconds = PATIENCE * self.candidates[candidate].light_seconds(1);
             self.advance(candidate, seconds);

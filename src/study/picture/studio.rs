@@ -89,8 +89,9 @@ impl Laboratory for Studio<'_> {
         self.cancel.is_requested()
     }
 
-    fn refine_reference(&mut self, samples: u32) {
-        while self.truth.samples() < samples && self.refine() {}
+    fn refine_reference(&mut self, samples: u32, seconds: f64) {
+        let start = Instant::now();
+        while (self.truth.samples() < samples || start.elapsed().as_secs_f64() < seconds) && self.refine() {}
     }
 
     fn prepare(&mut self, recipe: &Recipe, seconds: f64) -> Option<(usize, f64)> {
@@ -113,8 +114,7 @@ impl Laboratory for Studio<'_> {
     }
 
     fn sample(&mut self, pilot: usize, samples: u32) -> Option<Forecast> {
-        // The truth may have taken more, to find any light.
-        let (samples, scale) = (samples.max(self.truth.samples()), self.scale());
+        let scale = self.scale();
         let pilot = &mut self.pilots[pilot];
         let forecast = if is_truth_itself(&pilot.recipe) {
             let taken = self.truth.seeds().count() as f64 * f64::from(self.truth.samples());

@@ -25,15 +25,16 @@ struct Curves {
     scale: f64,
     first_size: f32,
     clock: f64,
-    reference: u32,
+    /// Samples, in each estimate.
+    reference: f64,
     pilots: Vec<(Recipe, u32)>,
     told: usize,
 }
 
 impl Curves {
     fn new(slowness: f64, light: f64) -> Self {
-        let first_size = candidates()[1].recipe().settings.mesh.element_size.expect("a size");
-        Self { slowness, light, scale: 100.0, first_size, clock: 0.0, reference: 0, pilots: Vec::new(), told: 0 }
+        let first_size = candidates()[3].recipe().settings.mesh.element_size.expect("a size");
+        Self { slowness, light, scale: 100.0, first_size, clock: 0.0, reference: 0.0, pilots: Vec::new(), told: 0 }
     }
 
     /// Seconds of light and of a sample, bias and variance of a sample.
@@ -67,10 +68,11 @@ impl Laboratory for Curves {
         false
     }
 
-    fn refine_reference(&mut self, samples: u32) {
-        let fresh = f64::from(samples - self.reference);
-        self.clock += 0.01 * self.slowness * REPLICATES * fresh / self.scale;
-        self.reference = samples;
+    fn refine_reference(&mut self, samples: u32, seconds: f64) {
+        let sample_seconds = 0.01 * self.slowness * REPLICATES / self.scale;
+        let fresh = (f64::from(samples) - self.reference).max((seconds / sample_seconds).ceil());
+        self.clock += sample_seconds * fresh;
+        self.reference += fresh;
     }
 
     fn prepare(&mut self, recipe: &Recipe, seconds: f64) -> Option<(usize, f64)> {
@@ -92,7 +94,7 @@ impl Laboratory for Curves {
             return Some(Forecast { parts, sample_seconds });
         }
         self.clock += sample_seconds * REPLICATES * f64::from(samples - taken) / self.scale;
-        let variance = (noise + TRACED) / f64::from(samples) / REPLICATES;
+        let variance = (noise / f64::from(samples) + TRACED / self.reference) / REPLICATES;
         let bias_deviation = (2.0 * variance * variance + 4.0 * bias * bias * variance).sqrt() / PIXELS.sqrt();
         let parts = ErrorParts { bias: bias * bias, bias_deviation, noise };
         Some(Forecast { parts, sample_seconds })
