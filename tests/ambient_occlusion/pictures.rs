@@ -1,6 +1,6 @@
 //! In pictures from a camera.
 
-use super::{FAR, LIFTED, UNDER_A_CEILING, plane, settings, transport};
+use super::{FAR, ROUNDED, UNDER_A_CEILING, plane, settings, transport};
 use glam::Vec3;
 use lightwell::camera::Camera;
 use lightwell::cancel::Cancel;
@@ -52,13 +52,13 @@ fn every_pixel_under_a_ceiling_has_the_closed_form() {
         let mut sum = 0.0;
         for (pixel, radiance) in image.radiance.iter().enumerate() {
             let found = f64::from(radiance.x);
-            assert!((found - expected).abs() <= 5.0 * error + LIFTED, "{falloff:?}, pixel {pixel}: {found}");
+            assert!((found - expected).abs() <= 5.0 * error + ROUNDED, "{falloff:?}, pixel {pixel}: {found}");
             assert_eq!(*radiance, Rgb::splat(radiance.x));
             sum += found;
         }
         let pixels = image.radiance.len() as f64;
         assert!(
-            (sum / pixels - expected).abs() <= 3.0 * error / pixels.sqrt() + LIFTED,
+            (sum / pixels - expected).abs() <= 3.0 * error / pixels.sqrt() + ROUNDED,
             "{falloff:?}: {}",
             sum / pixels
         );

@@ -1,7 +1,7 @@
 //! At single points.
 
 use super::shapes;
-use super::{FAR, LIFTED, UNDER_A_CEILING, at, plane, quad, settings, transport, wall};
+use super::{FAR, ROUNDED, UNDER_A_CEILING, at, plane, quad, settings, transport, wall};
 use glam::Vec3;
 use lightwell::methods::{Falloff, Range};
 
@@ -11,7 +11,7 @@ const ANY_HIT: (Range, Falloff) = (Range::Unlimited, Falloff::None);
 /// Three standard errors of a mean over independent rays, each of which brings something in [0, 1]: at most √(v (1 − v) / n)
 /// each. Stratified ones are better.
 fn tolerance(share: f64) -> f64 {
-    3.0 * (share * (1.0 - share) / f64::from(RAYS)).sqrt() + LIFTED
+    3.0 * (share * (1.0 - share) / f64::from(RAYS)).sqrt() + ROUNDED
 }
 
 fn assert_share(found: f32, expected: f64, what: &str) {

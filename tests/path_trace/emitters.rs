@@ -77,8 +77,8 @@ fn samples_of_one_emitter_are_its_form_factor_and_bounded_however_near_it_is() {
                 found.add(value);
                 largest = largest.max(value);
             }
-            // 40 means: beyond 4.5 standard errors once in some 4,000. Lamps that are not near are lifted by 4e-6 m, and what
-            // is 2e-6 m away is known to 1/20 of that at this size; of a half-space it fills all but such shares.
+            // 40 means: beyond 4.5 standard errors once in some 4,000. What is 2e-6 m away is
+            // known to 1/20 of that at this size; of a half-space it fills all but such shares.
             let miss = (found.mean() - expected).abs() - 4.5 * found.standard_error();
             assert!(miss < 1e-4 * expected, "{name}, {height}: {found:?}, {expected} expected");
             // E is π at most, and a direction chosen from a half-space stands for 2π.
@@ -98,12 +98,12 @@ fn the_density_of_a_sample_is_that_of_the_ray_that_meets_it() {
         let place = floor_at(&transport, 1.9 * stream.uniform() - 0.95, 1.9 * stream.uniform() - 0.95);
         let Some(sample) = transport.emitters().sample(&place, stream.uniform(), stream.uniform2()) else { continue };
         let met = transport.meet(&transport.leave(&place, sample.direction)).expect("an emitter");
-        // Where the small one hides the large one, or an edge is missed by the lift of the ray.
+        // Where the small one hides the large one, or the ray passes an edge by rounding.
         if !met.point.abs_diff_eq(sample.point.point, 1e-4) {
             continue;
         }
         let pdf = transport.emitters().pdf(&place, &met, sample.direction);
-        // Rays and lamps are lifted by 4e-6 m, of distances of half a metre: their squares by 4e-5.
+        // Points are rounded to 1e-6 m, of distances of half a metre: their squares to 4e-6; cosines to as much near the plane.
         assert!((pdf / sample.pdf - 1.0).abs() < 1e-4, "{sample:?} {met:?} {pdf}");
         if met.polygon == 1 { near += 1 } else { far += 1 }
     }

@@ -113,7 +113,7 @@ pub fn out_of_sight(world: &World, shooter: &Patch) -> impl Fn(&Patch) -> Option
     move |receiver| shooter.out_of_sight(receiver, tolerance)
 }
 
-/// Planes that are nearer than this are one plane, m: twice as far as a lifted point.
+/// Planes that are nearer than this are one plane, m.
 pub fn plane_tolerance(world: &World) -> f32 {
     2.0 * world.tracer.offset()
 }

@@ -27,6 +27,9 @@ struct Curves {
     clock: f64,
     /// Samples, in each estimate.
     reference: f64,
+    /// What the reference and the pilots took, s.
+    reference_seconds: f64,
+    pilot_seconds: f64,
     pilots: Vec<(Recipe, u32)>,
     told: usize,
 }
@@ -34,7 +37,18 @@ struct Curves {
 impl Curves {
     fn new(slowness: f64, light: f64) -> Self {
         let first_size = candidates()[3].recipe().settings.mesh.element_size.expect("a size");
-        Self { slowness, light, scale: 100.0, first_size, clock: 0.0, reference: 0.0, pilots: Vec::new(), told: 0 }
+        Self {
+            slowness,
+            light,
+            scale: 100.0,
+            first_size,
+            clock: 0.0,
+            reference: 0.0,
+            reference_seconds: 0.0,
+            pilot_seconds: 0.0,
+            pilots: Vec::new(),
+            told: 0,
+        }
     }
 
     /// Seconds of light and of a sample, bias and variance of a sample.
@@ -72,6 +86,7 @@ impl Laboratory for Curves {
         let sample_seconds = 0.01 * self.slowness * REPLICATES / self.scale;
         let fresh = (f64::from(samples) - self.reference).max((seconds / sample_seconds).ceil());
         self.clock += sample_seconds * fresh;
+        self.reference_seconds += sample_seconds * fresh;
         self.reference += fresh;
     }
 
@@ -93,7 +108,9 @@ impl Laboratory for Curves {
             let parts = ErrorParts { noise, ..ErrorParts::default() };
             return Some(Forecast { parts, sample_seconds });
         }
-        self.clock += sample_seconds * REPLICATES * f64::from(samples - taken) / self.scale;
+        let seconds = sample_seconds * REPLICATES * f64::from(samples - taken) / self.scale;
+        self.clock += seconds;
+        self.pilot_seconds += seconds;
         let variance = (noise / f64::from(samples) + TRACED / self.reference) / REPLICATES;
         let bias_deviation = (2.0 * variance * variance + 4.0 * bias * bias * variance).sqrt() / PIXELS.sqrt();
         let parts = ErrorParts { bias: bias * bias, bias_deviation, noise };
@@ -177,6 +194,15 @@ fn the_cheapest_that_is_good_enough_wins() {
     assert_eq!(winner.recipe.way, Way::RadiosityDirect);
     assert!(winner.forecast.parts.bias < 0.0081 * 0.3, "finer light than the first: {winner:?}");
     assert_eq!(way(0.002), Way::Reference);
+}
+
+/// All pilots are held against it, so that its noise counts for each of them. What the last round of pilots took is still to come
+/// when the race ends, which is half of all.
+#[test]
+fn the_reference_gets_as_much_time_as_all_pilots_together() {
+    let mut lab = Curves::new(1.0, 1.0);
+    race(&mut lab, within(None, 60.0));
+    assert!(lab.reference_seconds > 0.45 * lab.pilot_seconds, "{} {}", lab.reference_seconds, lab.pilot_seconds);
 }
 
 /// Where little time is left, and light of the mesh would take all of it, paths are traced at once.
