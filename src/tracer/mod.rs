@@ -192,7 +192,7 @@ impl Tracer {
     /// Whether a ray meets nothing that is not farther away than `reach`, m. It must start in the scene or near it.
     pub fn is_free(&self, ray: &Ray, reach: f32) -> bool {
         let limit = reach * self.frame_from_world;
-        let end = SurfacePoint::in_space(ray.origin + reach * ray.direction);
+        let end = SurfacePoint::in_space(ray.origin);
         self.is_unobstructed(self.to_frame(ray.origin), ray.direction, limit, [ray.start(), end])
     }
 

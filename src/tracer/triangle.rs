@@ -99,9 +99,6 @@ impl Boundable for PaddedTriangle {
     }
 }
 
-/// Rays with a smaller cosine meet a plane at a distance that single precision does not know.
-const GRAZING: f32 = 1e-3;
-
 /// The shear that turns a ray into the z axis, computed once for all its triangles.
 pub struct Shear {
     origin: Vec3A,
@@ -145,12 +142,10 @@ impl Shear {
     #[inline(always)]
     pub fn crossing(&self, triangle: &Triangle, Edges { edges, depth }: Edges) -> Crossing {
         let slope = triangle.slope(self.direction);
-        let distance = if slope.abs() > GRAZING {
-            let corner = Vec3A::from_array(triangle.axes.map(|axis| axis.x));
-            (corner - self.origin).dot(triangle.normal()) / slope
-        } else {
-            self.factors[2] * edges.dot(depth) / edges.element_sum()
-        };
-        Crossing { distance, slope, edges }
+        let corner = Vec3A::from_array(triangle.axes.map(|axis| axis.x));
+        let distance = (corner - self.origin).dot(triangle.normal()) / slope;
+        // Between the first corner and the last, also where the ray is in the plane but for rounding.
+        let corners = self.factors[2] * depth;
+        Crossing { distance: distance.max(corners.min_element()).min(corners.max_element()), slope, edges }
     }
 }

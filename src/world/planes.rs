@@ -1,7 +1,7 @@
 //! Planes of sides, and what they alone tell of who can see whom.
 
 use super::surface::Surfaces;
-use crate::math::polygon::{face_each_other, rounding_along};
+use crate::math::polygon::{are_opposed, rounding_along};
 use glam::{DVec3, Vec3A};
 
 /// Where there are more pairs of sides than this to look at, two are taken to see each other: more would take longer
@@ -51,7 +51,7 @@ pub fn may_see(surfaces: &Surfaces, from: &[usize], to: &[usize], tolerance: f64
 pub fn may_see_across_gaps(surfaces: &Surfaces, from: &[usize], to: &[usize], tolerance: f64) -> bool {
     any_faces(surfaces, from, to, |this, other| {
         let planes = [this, other].map(|side| Plane::new(surfaces, side));
-        if !face_each_other(planes[0].normal, planes[1].normal) {
+        if !are_opposed(planes[0].normal, planes[1].normal) {
             return tolerance;
         }
         let corners = [this, other].map(|side| surfaces.corners_of(side / 2)).concat();

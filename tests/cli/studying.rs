@@ -18,7 +18,10 @@ fn slope(points: &[[f64; 2]]) -> f64 {
 #[test]
 fn a_study_has_a_monotonic_front() {
     let folder = folder();
-    let report = json(&folder, "study cornell-box -o cost --budget 20 --json");
+    // How much is done in a budget depends on what else the machine does.
+    let study = |budget| json(&folder, &format!("study cornell-box -o cost --budget {budget} --json"));
+    let is_long_enough = |report: &serde_json::Value| report["runs"].as_array().is_some_and(|runs| !runs.is_empty());
+    let report = [20, 80, 320].into_iter().map(study).find(is_long_enough).expect("a run in some minutes");
     let runs = report["runs"].as_array().expect("a list");
     let fields = [
         "bytes",
@@ -34,8 +37,7 @@ fn a_study_has_a_monotonic_front() {
         "run",
         "seconds",
     ];
-    // How many there are depends on how fast the machine is.
-    assert!(!runs.is_empty() && keys(&runs[0]) == fields, "{report}");
+    assert_eq!(keys(&runs[0]), fields, "{report}");
     let mut front: Vec<[f64; 2]> = runs
         .iter()
         .filter(|run| run["on_front"] == true)

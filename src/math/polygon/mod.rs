@@ -26,8 +26,8 @@ pub fn vector_area(corners: &[DVec3]) -> DVec3 {
     corners.windows(2).map(|pair| (pair[0] - first).cross(pair[1] - first)).sum::<DVec3>() * 0.5
 }
 
-/// Whether polygons with these unit normals face each other like parallel plates, so that next to nothing may be between them.
-pub fn face_each_other(one: DVec3, other: DVec3) -> bool {
+/// Whether these unit normals point at each other as those of parallel plates, between which there may be next to nothing, do.
+pub fn are_opposed(one: DVec3, other: DVec3) -> bool {
     one.dot(other) < -0.5
 }
 

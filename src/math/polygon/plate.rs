@@ -2,7 +2,7 @@
 //! computed as its distance calls for.
 
 use super::gauss::{GAUSS_2, GAUSS_3, GAUSS_4};
-use super::{contour, face_each_other, vector_area};
+use super::{are_opposed, contour, vector_area};
 use glam::DVec3;
 use std::f64::consts::PI;
 
@@ -124,7 +124,7 @@ impl Plate {
             return InFront::None;
         }
         let heights = other.corners.map(|corner| (corner - self.center).dot(self.normal));
-        let is_facing = face_each_other(self.normal, other.normal);
+        let is_facing = are_opposed(self.normal, other.normal);
         let rounding = if is_facing { 0.0 } else { tolerance * self.radius.min(other.radius) };
         if heights.iter().all(|&height| height <= rounding) {
             InFront::None

@@ -32,7 +32,7 @@ pub trait Laboratory {
     fn now(&self) -> f64;
     /// Whether the search was stopped.
     fn is_stopped(&self) -> bool;
-    /// The reference gets so many samples in each of its estimates, and more of them for so many seconds.
+    /// The reference gets at least so many samples in each of its estimates, and samples for at least so many seconds.
     fn refine_reference(&mut self, samples: u32, seconds: f64);
     /// Computes the light of a recipe in at most so many seconds; the number of its pilot, and the seconds that it took.
     fn prepare(&mut self, recipe: &Recipe, seconds: f64) -> Option<(usize, f64)>;
@@ -61,7 +61,7 @@ pub struct Race<'a, L> {
     runners: Vec<Runner>,
     /// In each estimate of the pilots that are still racing.
     samples: u32,
-    /// What the last samples of pilots took, s.
+    /// What samples of pilots took since the reference was refined, s.
     sampling_seconds: f64,
 }
 
@@ -81,7 +81,6 @@ impl<'a, L: Laboratory> Race<'a, L> {
             }
         }
         let mut last_round = self.lab.now() - start - light_seconds;
-        self.sampling_seconds = last_round;
         loop {
             self.refine_lights();
             self.drop_losers();
@@ -92,13 +91,11 @@ impl<'a, L: Laboratory> Race<'a, L> {
             }
             self.samples *= 2;
             start = self.lab.now();
-            // Its noise is in the bias of all of them: it gets as much time as they do together.
-            self.lab.refine_reference(self.samples, self.sampling_seconds);
-            let sampling = self.lab.now();
+            // Its noise is in the bias of all of them: it gets as much time as they did together.
+            self.lab.refine_reference(self.samples, std::mem::take(&mut self.sampling_seconds));
             for runner in 0..self.runners.len() {
                 self.sample(runner);
             }
-            self.sampling_seconds = self.lab.now() - sampling;
             last_round = self.lab.now() - start;
         }
     }
@@ -145,7 +142,7 @@ impl<'a, L: Laboratory> Race<'a, L> {
         let best = self.best().map(|best| (best.recipe, self.merit(best, Attitude::Careful)));
         self.lab.tell(&recipe, best.as_ref().map(|(recipe, merit)| (recipe, *merit)));
         let prepared = self.lab.prepare(&recipe, seconds);
-        let sampled = prepared.and_then(|(pilot, _)| self.lab.sample(pilot, self.samples));
+        let sampled = prepared.and_then(|(pilot, _)| self.samples_of(pilot));
         let (Some((pilot, light_seconds)), Some(forecast)) = (prepared, sampled) else {
             self.candidates[candidate].end();
             return 0.0;
@@ -164,9 +161,16 @@ impl<'a, L: Laboratory> Race<'a, L> {
         }
         let best = self.best().map(|best| (best.recipe, self.merit(best, Attitude::Careful)));
         self.lab.tell(&recipe, best.as_ref().map(|(recipe, merit)| (recipe, *merit)));
-        if let Some(forecast) = self.lab.sample(pilot, self.samples) {
+        if let Some(forecast) = self.samples_of(pilot) {
             self.runners[runner].forecast = forecast;
         }
+    }
+
+    fn samples_of(&mut self, pilot: usize) -> Option<Forecast> {
+        let start = self.lab.now();
+        let forecast = self.lab.sample(pilot, self.samples);
+        self.sampling_seconds += self.lab.now() - start;
+        forecast
     }
 
     /// Those that cannot win any more, even if their bias is smaller than it looks.

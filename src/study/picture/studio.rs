@@ -116,7 +116,8 @@ impl Laboratory for Studio<'_> {
     fn sample(&mut self, pilot: usize, samples: u32) -> Option<Forecast> {
         let scale = self.scale();
         let pilot = &mut self.pilots[pilot];
-        let forecast = if is_truth_itself(&pilot.recipe) {
+        let is_truth = is_truth_itself(&pilot.recipe);
+        let forecast = if is_truth {
             let taken = self.truth.seeds().count() as f64 * f64::from(self.truth.samples());
             let parts = self.truth.own_parts()?;
             Forecast { parts, sample_seconds: scale * self.truth_seconds / taken }
@@ -126,7 +127,7 @@ impl Laboratory for Studio<'_> {
         log::info!(
             "{:.2} s: {} samples, light in {:.2} s, {:.4} s a pass, bias² {:.2e} ± {:.2e}, noise {:.3}: {}",
             self.start.elapsed().as_secs_f64(),
-            samples,
+            if is_truth { self.truth.samples() } else { samples },
             pilot.light_seconds,
             forecast.sample_seconds,
             forecast.parts.bias,

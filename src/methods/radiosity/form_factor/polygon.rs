@@ -1,7 +1,7 @@
 //! Form factor from a receiving element to a shooting patch by a formula, without regard to what stands between.
 
 use super::centroid::{Facet, centroid, disc};
-use crate::math::polygon::{Plate, face_each_other, form_factor, rounding_along, vector_area};
+use crate::math::polygon::{Plate, are_opposed, form_factor, rounding_along, vector_area};
 use crate::mesh::{Element, Mesh, Patch};
 use crate::solution::Zero;
 use glam::{DVec3, Vec3A};
@@ -50,8 +50,8 @@ impl Shooter {
     /// their corners were rounded to. Of those that face each other, however near, all
     /// that is more than rounding counts.
     pub fn out_of_sight(&self, receiver: &Patch, tolerance: f32) -> Option<Zero> {
-        let do_face = face_each_other(receiver.normal.as_dvec3(), self.facet.normal);
-        let tolerance = if do_face { self.rounding(receiver) } else { tolerance };
+        let are_opposed = are_opposed(receiver.normal.as_dvec3(), self.facet.normal);
+        let tolerance = if are_opposed { self.rounding(receiver) } else { tolerance };
         let center = self.facet.center.as_vec3a();
         let height = |corner: &glam::Vec3| (Vec3A::from(*corner) - center).dot(self.normal);
         let above_receiver = |corner: &DVec3| (corner.as_vec3a() - receiver.center).dot(receiver.normal) > tolerance;
