@@ -1,12 +1,14 @@
 //! The one door to the bounding volume hierarchy: closest hits, and visibility between two points.
 //!
-//! A ray that slips between two triangles, or past a surface that is very near, is a light leak, so five guards stand
-//! here, each with a test that goes red without it (`tests/tracer.rs`):
+//! A ray that slips between two triangles, or past a surface that is very near, is a light leak, so six guards stand
+//! here, each with a test that goes red without it (`tests/tracer.rs`, and of slivers `tests/world/slivers.rs`):
 //! - Rays are traced in a frame of fixed size, so that nothing depends on the scene's units. The scale is a power of
 //!   two and loses no digit.
 //! - Boxes are padded by more than the rounding of a box test. This also keeps every hit away from the hierarchy's
 //!   absolute cut-off of 1e-4 below which it drops a box.
 //! - The triangle test is watertight (Woop, Benthin, Wald 2013): triangles that share an edge leave no gap.
+//! - Distances are those to planes, which are found in double precision: between the edges of a sliver, single precision says next
+//!   to nothing of where along it a ray passes.
 //! - A ray that leaves a polygon starts on it, and never meets it. What is nearer to its ends than single precision can tell
 //!   is decided in double precision (`contact`), so that a ray passes nothing that touches the surface that it leaves.
 //! - Points of hits keep off the edges of their triangle, and elsewhere a little back on the ray, so that rounding does not move
