@@ -85,8 +85,10 @@ fn direct_light_in_a_furnace_is_too_dark_by_what_its_walls_reflect() {
     };
     println!("{traced:?}, not {expected} ± {}", noise(&traced));
     assert!(noise(&traced) < 0.03 && (traced.offset - expected).abs() < noise(&traced), "{traced:?}, not {expected}");
-    // Everywhere alike: the offset is all of the error, but for the noise of the light.
-    assert!((0.0..0.01).contains(&(traced.rms - traced.offset.abs())), "{traced:?}");
+    // Everywhere alike: the offset is all of the error, but for the noise of the light. That of the reference is taken out of the
+    // squares, which may leave less than there is.
+    let apart = traced.rms - traced.offset.abs();
+    assert!((-3.0 * traced.uncertainty..0.01).contains(&apart), "{traced:?}");
     // All light is in what is gathered, to the noise of 200,000 photons and of the rays that read them.
     let gathered = error(Judged::FinalGather, &with_photons(sources, &with_samples(1)), 16);
     let noise = noise(&gathered) + 4.0 / 200_000_f64.sqrt();

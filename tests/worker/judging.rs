@@ -74,7 +74,7 @@ fn what_was_measured_is_held_against_every_better_truth() {
     let floor = |now: &Snapshot| now.truth.as_ref().map_or(f64::INFINITY, |truth| truth.floor);
     let until_last = |is_it: &dyn Fn(&Snapshot) -> bool| watched.until(is_it).pop().expect("one at least");
     let early = until_last(&|now| error(now, LightKind::Radiosity).is_some());
-    let late = until_last(&|now| floor(now) < 0.8 * floor(&early));
+    let late = until_last(&|now| floor(now) < floor(&early));
     let track = &late.tracks[0];
     assert!(track.points.iter().all(|point| point.error.floor == floor(&late)), "{} {track:?}", floor(&late));
 }
