@@ -108,8 +108,8 @@ impl PixelTruth {
         self.places.iter().map(|[x, y]| radiance[(y * width + x) as usize]).collect()
     }
 
-    /// How many estimates there are, and their seeds: whoever takes as many samples by the same ones meets the same places
-    /// of each pixel, so that edges, which both see alike, are no part of what they differ by (common random numbers).
+    /// The seed of each replicate. As many samples by the same seeds fall on the same places of each pixel, so that noise at
+    /// edges cancels in differences (common random numbers).
     pub fn seeds(&self) -> impl Iterator<Item = u64> {
         (0..REPLICATES).map(|index| seed_of(self.set, index))
     }

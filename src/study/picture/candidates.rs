@@ -31,7 +31,7 @@ pub struct Candidate {
     pub has_ended: bool,
 }
 
-/// All ways, or one of them. Those come first that need no light, or as much as is known before: the light of elements may take
+/// All ways, or one of them. First come those without light of their own, then photons, whose cost is known; radiosity may take
 /// any time.
 pub fn of(world: &World, settings: &Settings, way: Option<Way>) -> Vec<Candidate> {
     let image = ImageSettings { gather_rays: GATHER_RAYS, light_rays: LIGHT_RAYS, ..settings.image };
