@@ -279,3 +279,30 @@ fn points_of_surfaces_see_each_other_across_the_smallest_gap_and_not_through_wha
         }
     }
 }
+
+#[test]
+fn from_outside_of_a_convex_body_its_inside_is_not_seen() {
+    let shift = Vec3::new(0.3, 0.2, 0.1);
+    for scale in SCALES {
+        let triangles = placed(&sphere(3), scale, shift);
+        let tracer = tracer(&triangles);
+        let mut stream = Stream::new(8, 0, 0);
+        for _ in 0..400_000 {
+            // Towards an edge, from an eye for which it may be a part of the outline.
+            let mut pick = || triangles[(stream.bits() % triangles.len() as u64) as usize];
+            let ([a, b, c], [over, ..]) = (pick(), pick());
+            let beside = 10.0_f32.powf(-7.0 * stream.uniform());
+            let eye = scale * shift + 3.0 * (over - scale * shift);
+            let ray = toward(eye, a.lerp(b, stream.uniform()).lerp(c, beside));
+            let Some(hit) = tracer.closest(&ray) else { continue };
+            assert!(hit.is_front, "scale {scale}: {ray:?} meets {hit:?}");
+            // Out again, however flatly.
+            let [a, b, c] = triangles[hit.polygon as usize].map(Vec3A::from);
+            let height = 10.0_f32.powf(-7.0 * stream.uniform());
+            let along = (b - a).normalize() * (stream.uniform() - 0.5) + (c - a).normalize() * (stream.uniform() - 0.5);
+            let out = (height * (b - a).cross(c - a).normalize() + along).normalize();
+            let next = tracer.closest(&Ray::leaving(hit.surface_point(), out));
+            assert_eq!(next, None, "scale {scale}: out of {hit:?} to {out}, {height} high");
+        }
+    }
+}

@@ -25,6 +25,14 @@ pub struct Facet {
     polygon: u32,
 }
 
+/// Where a ray meets a facet.
+struct Crossing {
+    /// m
+    distance: f64,
+    is_between_edges: bool,
+    is_front: bool,
+}
+
 /// Decides where single precision does not.
 pub struct Contact {
     /// Half-width of the zone in which single precision decides nothing, m.
@@ -60,6 +68,27 @@ impl Facet {
             let edge = to - from;
             self.normal.cross(edge).dot(point - from) >= -margin * edge.length()
         })
+    }
+
+    /// Where a ray meets the facet, or its outline if the ray passes just beside it.
+    fn cross(&self, origin: DVec3, direction: DVec3) -> Crossing {
+        let corners = self.corners.map(|corner| corner - origin);
+        let [a, b, c] = corners;
+        let weights = [b.cross(c), c.cross(a), a.cross(b)].map(|moment| moment.dot(direction));
+        let sum: f64 = weights.iter().sum();
+        let is_between_edges = weights.iter().all(|weight| weight * sum >= 0.0);
+        let distance = if is_between_edges {
+            weights.iter().zip(corners).map(|(weight, corner)| weight * corner.dot(direction)).sum::<f64>() / sum
+        } else {
+            let nearest = [(a, b), (b, c), (c, a)].map(|edge| nearest_of_edge(edge, direction));
+            nearest.into_iter().min_by(|one, other| one.1.total_cmp(&other.1)).map_or(0.0, |(distance, _)| distance)
+        };
+        Crossing { distance, is_between_edges, is_front: self.faces(direction) }
+    }
+
+    /// Whether a ray in this direction meets the front.
+    pub fn faces(&self, direction: DVec3) -> bool {
+        self.normal.dot(direction) < 0.0
     }
 
     /// Whether the two share an edge.
@@ -109,13 +138,18 @@ impl Contact {
         one.iter().any(|a| other.iter().any(|b| !are_apart(a, b)))
     }
 
-    /// Whether a ray meets the first facet before the second, both of which it meets.
+    /// Whether a ray meets the first facet before the second, both of which it meets in single precision. If it just passes
+    /// beside them, it meets of a body the outside, whose front it sees, and not the inside.
     pub fn is_before(&self, first: &Facet, second: &Facet, origin: DVec3, direction: DVec3) -> bool {
         if self.coincide(first, second) {
             return self.is_ranked_before(first, second, direction);
         }
-        let distance = |facet: &Facet| -facet.height(origin) / facet.normal.dot(direction);
-        distance(first) < distance(second)
+        let [first, second] = [first, second].map(|facet| facet.cross(origin, direction));
+        let are_certain = first.is_between_edges && second.is_between_edges;
+        if !are_certain && first.is_front != second.is_front && (first.distance - second.distance).abs() <= self.slack {
+            return first.is_front;
+        }
+        first.distance < second.distance
     }
 
     /// Whether rounding decides which of the two is in front: they are in one plane but for rounding, and the smaller one is
@@ -142,6 +176,14 @@ impl Contact {
         };
         rank(first) < rank(second)
     }
+}
+
+/// Where an edge, given relative to a ray's origin, is nearest to the ray's line: the distance along the ray, and the square of
+/// that between the two.
+fn nearest_of_edge((from, to): (DVec3, DVec3), direction: DVec3) -> (f64, f64) {
+    let [beside, along] = [from, to - from].map(|vector| vector.reject_from_normalized(direction));
+    let share = (-beside.dot(along) / along.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+    (from.lerp(to, share).dot(direction), (beside + share * along).length_squared())
 }
 
 #[cfg(test)]

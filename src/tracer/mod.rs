@@ -1,12 +1,14 @@
 //! The one door to the bounding volume hierarchy: closest hits, and visibility between two points.
 //!
-//! A ray that slips between two triangles, or past a surface that is very near, is a light leak, so five guards stand
-//! here, each with a test that goes red without it (`tests/tracer.rs`):
+//! A ray that slips between two triangles, or past a surface that is very near, is a light leak, so six guards stand
+//! here, each with a test that goes red without it (`tests/tracer.rs`, and of slivers `tests/world/slivers.rs`):
 //! - Rays are traced in a frame of fixed size, so that nothing depends on the scene's units. The scale is a power of
 //!   two and loses no digit.
 //! - Boxes are padded by more than the rounding of a box test. This also keeps every hit away from the hierarchy's
 //!   absolute cut-off of 1e-4 below which it drops a box.
 //! - The triangle test is watertight (Woop, Benthin, Wald 2013): triangles that share an edge leave no gap.
+//! - Distances are those to planes, which are found in double precision: between the edges of a sliver, single precision says next
+//!   to nothing of where along it a ray passes.
 //! - A ray that leaves a polygon starts on it, and never meets it. What is nearer to its ends than single precision can tell
 //!   is decided in double precision (`contact`), so that a ray passes nothing that touches the surface that it leaves.
 //! - Points of hits keep off the edges of their triangle, and elsewhere a little back on the ray, so that rounding does not move
@@ -39,6 +41,9 @@ const INSET_ULPS: f32 = 8.0;
 /// What is nearer than so many to the end of a ray, or to another hit, is decided in double precision: more than the rounding
 /// of a point that was inset.
 const SLACK_ULPS: f32 = 16.0;
+
+/// Cosines of two unit vectors are known to this: three products, three components of either.
+const SLOPE_ROUNDING: f32 = 6.0 * f32::EPSILON;
 
 /// The polygon of points that lie on none.
 pub const SPACE: u32 = u32::MAX;
@@ -88,7 +93,11 @@ pub struct Tracer {
     parts: Vec<[u32; 2]>,
     center: Vec3A,
     frame_from_world: f32,
+    world_from_frame: f32,
+    /// m
     offset: f32,
+    /// [`SLACK_ULPS`] in frame units.
+    slack: f32,
 }
 
 impl Ray {
@@ -128,11 +137,11 @@ impl Tracer {
         let center = if bounds.is_empty() { Vec3::ZERO } else { bounds.center() };
         let frame_from_world = frame_scale(bounds.extent().max_element() * 0.5);
         let offset = OFFSET_ULPS * f32::EPSILON * bounds.magnitude();
-        let to_frame = |corner: Vec3| ((corner - center) * frame_from_world).to_array();
+        let to_frame = |corner: Vec3A| (corner - Vec3A::from(center)) * frame_from_world;
         let padded: Vec<PaddedTriangle> = triangles
             .iter()
             .map(|(_, corners)| PaddedTriangle {
-                triangle: Triangle::new(corners.map(to_frame)),
+                triangle: Triangle::new(corners, to_frame, frame_from_world),
                 padding: offset * frame_from_world,
             })
             .collect();
@@ -146,7 +155,9 @@ impl Tracer {
             bvh,
             center: center.into(),
             frame_from_world,
+            world_from_frame: 1.0 / frame_from_world,
             offset,
+            slack: offset * frame_from_world * (SLACK_ULPS / OFFSET_ULPS),
         }
     }
 
@@ -167,16 +178,19 @@ impl Tracer {
             shear: Shear::new(origin, ray.direction),
             ray,
             leaving_slope: self.slope_of(ray.leaves, ray.direction),
-            slack: self.slack(),
+            limit,
             farthest: limit,
-            best: None,
+            best: Candidate { triangle: NO_TRIANGLE, crossing: Crossing::default() },
         };
         self.bvh.ray_traverse(frame_ray(origin, ray.direction, limit), &mut RayHit::none(), |_, i| search.visit(i));
-        let Candidate { triangle, crossing, slope } = search.best?;
+        let Candidate { triangle, crossing } = search.best;
+        if triangle == NO_TRIANGLE {
+            return None;
+        }
         Some(Hit {
             polygon: self.owners[triangle],
-            distance: (skipped + crossing.distance) / self.frame_from_world,
-            is_front: slope < 0.0,
+            distance: (skipped + crossing.distance) * self.world_from_frame,
+            is_front: self.is_front(triangle, crossing.slope, ray.direction),
             point: self.inset_point(&self.triangles[triangle], &crossing, ray.direction),
         })
     }
@@ -184,12 +198,8 @@ impl Tracer {
     /// Whether a ray meets nothing that is not farther away than `reach`, m. It must start in the scene or near it.
     pub fn is_free(&self, ray: &Ray, reach: f32) -> bool {
         let limit = reach * self.frame_from_world;
-        self.is_unobstructed(
-            self.to_frame(ray.origin),
-            ray.direction,
-            limit,
-            [ray.start(), SurfacePoint::in_space(ray.origin)],
-        )
+        let end = SurfacePoint::in_space(ray.origin);
+        self.is_unobstructed(self.to_frame(ray.origin), ray.direction, limit, [ray.start(), end])
     }
 
     /// Whether nothing stands between two points, of different polygons or in space, however near to each other they are.
@@ -203,23 +213,22 @@ impl Tracer {
     fn is_unobstructed(&self, origin: Vec3A, direction: Vec3A, distance: f32, ends: [SurfacePoint; 2]) -> bool {
         let shear = Shear::new(origin, direction);
         let [start, end] = ends;
-        let slack = self.slack();
-        let slopes = [start, end].map(|end| self.slope_of(end.polygon, direction));
         let is_hit = |i: usize| {
-            let Some(crossing) = shear.intersect(&self.triangles[i]) else { return false };
+            let Some(edges) = shear.intersect(&self.triangles[i]) else { return false };
             if self.owners[i] == start.polygon || self.owners[i] == end.polygon {
                 return false;
             }
-            let slope = slope(&self.triangles[i], direction).abs();
-            let is_past = |end: SurfacePoint, end_slope: f32, distance: f32, direction| {
-                if end.polygon != SPACE && distance.abs() * slope.min(end_slope) <= slack {
+            let crossing = shear.crossing(&self.triangles[i], edges);
+            let slope = crossing.slope.abs();
+            let is_past = |end: SurfacePoint, distance: f32, direction| {
+                let least_slope = || slope.min(self.slope_of(end.polygon, direction));
+                if end.polygon != SPACE && distance.abs() * least_slope() <= self.slack {
                     self.distance_between(end, i, direction).is_some()
                 } else {
                     distance >= 0.0
                 }
             };
-            is_past(start, slopes[0], crossing.distance, direction)
-                && is_past(end, slopes[1], distance - crossing.distance, -direction)
+            is_past(start, crossing.distance, direction) && is_past(end, distance - crossing.distance, -direction)
         };
         let ray = frame_ray(origin, direction, distance);
         self.bvh.ray_traverse_miss(ray, |_, i| if is_hit(i) { 0.0 } else { f32::INFINITY })
@@ -243,6 +252,11 @@ impl Tracer {
         Some((distance * f64::from(self.frame_from_world)) as f32)
     }
 
+    /// Whether a ray meets a triangle's front, whatever single precision knows of the cosine with its normal.
+    fn is_front(&self, triangle: usize, slope: f32, direction: Vec3A) -> bool {
+        if slope.abs() > SLOPE_ROUNDING { slope < 0.0 } else { self.facet(triangle as u32).faces(direction.as_dvec3()) }
+    }
+
     /// Whether a ray meets the first of two triangles before the second one: decided in double precision.
     #[cold]
     #[inline(never)]
@@ -254,7 +268,7 @@ impl Tracer {
     /// Sine of the elevation of a direction over a polygon; 1 over none.
     fn slope_of(&self, polygon: u32, direction: Vec3A) -> f32 {
         let parts = self.parts.get(polygon as usize);
-        parts.map_or(1.0, |parts| slope(&self.triangles[parts[0] as usize], direction).abs())
+        parts.map_or(1.0, |parts| self.triangles[parts[0] as usize].slope(direction).abs())
     }
 
     fn contact(&self) -> Contact {
@@ -268,7 +282,7 @@ impl Tracer {
     /// The point of a crossing in world space, moved so little that only rounding is made good: back on the ray, or near an edge
     /// towards the middle of the triangle, which it must not leave.
     fn inset_point(&self, triangle: &Triangle, crossing: &Crossing, direction: Vec3A) -> Vec3A {
-        let inset = self.slack() * (INSET_ULPS / SLACK_ULPS);
+        let inset = self.slack * (INSET_ULPS / SLACK_ULPS);
         let point = triangle.point(crossing);
         let point = if triangle.distance_to_edges(crossing) > 2.0 * inset {
             point - inset * direction
@@ -276,12 +290,7 @@ impl Tracer {
             let inwards = triangle.center() - point;
             point + inwards * (inset * inwards.length_recip()).min(0.5)
         };
-        point / self.frame_from_world + self.center
-    }
-
-    /// Frame units.
-    fn slack(&self) -> f32 {
-        self.offset * self.frame_from_world * (SLACK_ULPS / OFFSET_ULPS)
+        point * self.world_from_frame + self.center
     }
 
     /// A point of a surface, moved off it along the unit normal by more than the rounding error of its coordinates:
@@ -307,66 +316,65 @@ struct ClosestHit<'a> {
     ray: &'a Ray,
     /// Sine of the ray's elevation over the polygon that it leaves.
     leaving_slope: f32,
-    slack: f32,
-    /// Nothing beyond can come first.
+    /// Nothing beyond counts.
+    limit: f32,
+    /// Nothing that is surely beyond can come first.
     farthest: f32,
-    best: Option<Candidate>,
+    best: Candidate,
 }
+
+const NO_TRIANGLE: usize = usize::MAX;
 
 /// A triangle that the ray meets.
 #[derive(Clone, Copy)]
 struct Candidate {
     triangle: usize,
     crossing: Crossing,
-    /// Cosine of the ray's direction with the unit normal.
-    slope: f32,
 }
 
 impl ClosestHit<'_> {
     /// Takes the triangle if it comes first so far; tells how far boxes are still of interest.
     #[inline(always)]
     fn visit(&mut self, triangle: usize) -> f32 {
-        let Some(mut crossing) = self.shear.intersect(&self.tracer.triangles[triangle]) else { return f32::INFINITY };
-        if crossing.distance > self.farthest || self.tracer.owners[triangle] == self.ray.leaves {
+        let Some(edges) = self.shear.intersect(&self.tracer.triangles[triangle]) else { return f32::INFINITY };
+        if self.tracer.owners[triangle] == self.ray.leaves {
             return f32::INFINITY;
         }
-        let slope = slope(&self.tracer.triangles[triangle], self.ray.direction);
+        let mut crossing = self.shear.crossing(&self.tracer.triangles[triangle], edges);
+        let slope = crossing.slope.abs();
+        if (crossing.distance - self.farthest) * slope > self.tracer.slack {
+            return f32::INFINITY;
+        }
         // Near the planes of both, single precision does not know on which side of an edge the ray passes.
-        let least_slope = slope.abs().min(self.leaving_slope);
-        if self.ray.leaves != SPACE && crossing.distance.abs() * least_slope <= self.slack {
+        let least_slope = slope.min(self.leaving_slope);
+        if self.ray.leaves != SPACE && crossing.distance.abs() * least_slope <= self.tracer.slack {
             match self.tracer.distance_between(self.ray.start(), triangle, self.ray.direction) {
                 Some(distance) => crossing.distance = distance,
                 None => return f32::INFINITY,
             }
         }
         // Not a number where single precision finds no distance.
-        if !(crossing.distance >= 0.0 && crossing.distance <= self.farthest) {
+        if !(crossing.distance >= 0.0 && crossing.distance <= self.limit) {
             return f32::INFINITY;
         }
-        let candidate = Candidate { triangle, crossing, slope };
-        if self.best.is_some_and(|best| !self.is_before(&candidate, &best)) {
+        let candidate = Candidate { triangle, crossing };
+        if self.best.triangle != NO_TRIANGLE && !self.is_before(&candidate, &self.best) {
             return f32::INFINITY;
         }
-        self.best = Some(candidate);
+        self.best = candidate;
         // What touches the triangle may come first though its box begins behind.
-        self.farthest = self.farthest.min(crossing.distance + 2.0 * self.slack / slope.abs());
+        self.farthest = self.farthest.min(crossing.distance + self.tracer.slack / slope);
         self.farthest
     }
 
     fn is_before(&self, this: &Candidate, best: &Candidate) -> bool {
         let (near, far) = (this.crossing.distance, best.crossing.distance);
-        if (near - far).abs() * this.slope.abs().max(best.slope.abs()) > 2.0 * self.slack {
+        let least_slope = this.crossing.slope.abs().min(best.crossing.slope.abs());
+        if (near - far).abs() * least_slope > 2.0 * self.tracer.slack {
             return near < far;
         }
         self.tracer.touches_before(this.triangle, best.triangle, self.ray)
     }
-}
-
-/// Cosine of a unit direction with the triangle's unit normal.
-fn slope(triangle: &Triangle, direction: Vec3A) -> f32 {
-    let normal = triangle.normal();
-    let square = normal.length_squared();
-    if square > 0.0 { normal.dot(direction) / square.sqrt() } else { 0.0 }
 }
 
 /// For each polygon its triangles, of which each has an owner.

@@ -4,6 +4,7 @@ use crate::build_with;
 use crate::obj::Obj;
 use glam::Vec3A;
 use lightwell::cancel::Cancel;
+use lightwell::math::rgb::Rgb;
 use lightwell::methods::radiosity::Progressive;
 use lightwell::methods::{Method, Settings};
 use lightwell::scene::Scene;
@@ -12,6 +13,9 @@ use std::sync::Arc;
 
 /// How many strips there are.
 const STRIPS: u32 = 50;
+/// Index of the first polygon of the strips.
+const FIRST_STRIP: u32 = 7;
+
 /// A closed room of 2 m with a roof half-way up and a lamp above it. The roof is closed from x = `at` on by strips of a
 /// `width`, m, cut into triangles or not.
 fn room_with_roof(at: f64, width: f64, is_cut: bool) -> Scene {
@@ -56,16 +60,26 @@ fn a_roof_of_slivers_is_tight() {
 }
 
 #[test]
-fn light_on_slivers_is_finite() {
+fn light_on_slivers_is_finite_and_none_gets_through() {
     for is_cut in [false, true] {
         let world = Arc::new(build_with(room_with_roof(0.7, 4e-7, is_cut), 0.1));
-        // 40 cells along each side of 50 strips or twice as many of about 5 × 5, and 20 × 20 or 20 × 40 on the sides of the room.
-        assert!(world.mesh.elements.len() < 12_000, "{}", world.mesh.elements.len());
+        // 40 cells along each of 50 strips or twice as many of about 5 × 5, and 20 × 20 or 20 × 40 on the sides of the room above
+        // the roof.
+        assert!(world.mesh.elements.len() < 10_000, "{}", world.mesh.elements.len());
+        let (first, count) = (FIRST_STRIP, if is_cut { 2 * STRIPS } else { STRIPS });
+        let strips = world.mesh.patches.iter().filter(|patch| (first..first + count).contains(&patch.polygon));
+        let area: f64 = strips.map(|patch| patch.area).sum();
+        // Where the first begins and the last ends is rounded by 3e-8 m each.
+        assert!((area / (2.0 * f64::from(STRIPS) * 4e-7) - 1.0).abs() < 1e-2, "{area} m²");
         let mut solver = Progressive::new(world.clone(), Settings::default());
         for _ in 0..20 {
             solver.step(&Cancel::default());
         }
         let irradiance = solver.solution().light.irradiance;
         assert!(irradiance.iter().all(|value| value.is_finite()));
+        // Walls are one with those of the room below, where it stays dark.
+        let below = world.mesh.elements.iter().zip(&irradiance).filter(|(element, _)| element.center.y < 0.99);
+        assert!(below.clone().count() > 1000, "elements below the roof");
+        assert!(below.clone().all(|(_, value)| *value == Rgb::ZERO), "light gets through the roof");
     }
 }
