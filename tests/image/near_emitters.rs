@@ -44,6 +44,33 @@ const PANEL_MTL: &str =
     "newmtl wall\nKd .5 .5 .5\nnewmtl glow\nKd .5 .5 .5\nKe .318309886184 .318309886184 .318309886184
 ";
 
+/// A floor of 4 m, 3 m over it a lamp of 1 m that faces down, and beside its middle a lamp of 1 % of that flux, 10 cm wide.
+const TWO_LAMPS: &str = "\
+mtllib m.mtl
+usemtl wall
+v -2 0 2\nv 2 0 2\nv 2 0 -2\nv -2 0 -2\nf 1 2 3 4
+usemtl glow
+v -0.5 3 -0.5\nv 0.5 3 -0.5\nv 0.5 3 0.5\nv -0.5 3 0.5\nf 5 6 7 8
+v 0 0.1 -0.05\nv 0.1 0.1 -0.05\nv 0.1 0.1 0.05\nv 0 0.1 0.05\nf 9 10 11 12
+";
+
+fn two_lamps_irradiance(point: Vec3A) -> f64 {
+    let lamp = |low: DVec3, edge: f64| {
+        let corners = [(0.0, 0.0), (edge, 0.0), (edge, edge), (0.0, edge)].map(|(x, z)| low + DVec3::new(x, 0.0, z));
+        form_factor(point.as_dvec3(), DVec3::Y, &corners)
+    };
+    lamp(DVec3::new(-0.5, 3.0, -0.5), 1.0) + lamp(DVec3::new(0.0, 0.1, -0.05), 0.1)
+}
+
+/// Points of the floor round the weak lamp, to 0.3 m from it; none under the shadow of it.
+fn beside_the_weak_lamp() -> Vec<(Vec3A, Vec3A)> {
+    let place = |i: u32| {
+        let at = sobol2(i, 0, 5);
+        (Vec3A::new(0.15 + 0.2 * at.x, 0.0, 0.4 * at.y - 0.2), Vec3A::Y)
+    };
+    (0..100).map(place).collect()
+}
+
 fn panel_irradiance(point: Vec3A) -> f64 {
     let corners = [(-0.5, -0.5), (-0.5, 0.5), (0.5, 0.5), (0.5, -0.5)].map(|(x, y)| DVec3::new(x, y, 0.01));
     form_factor(point.as_dvec3(), DVec3::Z, &corners)
@@ -167,8 +194,13 @@ fn radiosity_with_direct_rays_and_the_reference_are_right_near_emitters() {
 fn standard_errors_near_emitters_are_honest() {
     let points = on_the_wall();
     let panel: Vec<f64> = points.iter().map(|&(point, _)| panel_irradiance(point)).collect();
-    let scenes =
-        [("attic", attic(0.1), on_the_floor(0.1), vec![DIRECT; 20]), ("panel", scene(PANEL, PANEL_MTL), points, panel)];
+    let beside = beside_the_weak_lamp();
+    let lamps: Vec<f64> = beside.iter().map(|&(point, _)| two_lamps_irradiance(point)).collect();
+    let scenes = [
+        ("attic", attic(0.1), on_the_floor(0.1), vec![DIRECT; 20]),
+        ("panel", scene(PANEL, PANEL_MTL), points, panel),
+        ("weak lamp", scene(TWO_LAMPS, PANEL_MTL), beside, lamps),
+    ];
     for (name, world, points, expected) in scenes {
         let sources = with_photons(sources(&world), &settings(16, "LDE"));
         let surfaces = surfaces(&sources, &points[..20]);

@@ -1,7 +1,7 @@
 //! How directions to emitters are chosen: what a sample says is what is sampled, and no sample outweighs the rest by far.
 
 use crate::scene;
-use glam::{DVec3, Vec3, Vec3A};
+use glam::{DVec3, EulerRot, Quat, Vec3, Vec3A};
 use lightwell::math::polygon::form_factor;
 use lightwell::math::random::Stream;
 use lightwell::math::stats::Moments;
@@ -126,4 +126,60 @@ fn only_places_before_an_emitter_and_closer_than_its_size_are_near_it() {
     // A small lamp that is seldom chosen beside a strong one is near as far as it outshines what its choice would find.
     let pair = over_a_floor(&[("lamp", &ceiling(0.05, 0.06)), ("bright", &ceiling(0.05, 1.0))]);
     assert!(pair.emitters().are_near(&floor_at(&pair, 0.0, 0.0)));
+}
+
+/// Two hundred lamps that look anywhere, of radiances that differ by a thousand, in places that differ by their distance.
+fn many_lamps() -> (Arc<Transport>, Vec<bool>) {
+    let mut stream = Stream::new(1, 2, 6);
+    let mut random = |low: f32, high: f32| low + (high - low) * stream.uniform();
+    let lamps: Vec<(bool, Vec<Vec3>)> = (0..200)
+        .map(|_| {
+            let turn = Quat::from_euler(EulerRot::XYZ, random(0.0, 6.0), random(0.0, 6.0), random(0.0, 6.0));
+            let center = Vec3::new(random(-3.0, 3.0), random(0.05, 3.0), random(-3.0, 3.0));
+            let corners = ceiling(0.01, 0.0).map(|corner| center + turn * corner);
+            (random(0.0, 1.0) < 0.1, corners.to_vec())
+        })
+        .collect();
+    let named = |bright: bool| if bright { "bright" } else { "lamp" };
+    let emitters: Vec<(&str, &[Vec3])> = lamps.iter().map(|(bright, corners)| (named(*bright), &corners[..])).collect();
+    (over_a_floor(&emitters), lamps.iter().map(|(bright, _)| *bright).collect())
+}
+
+/// Every lamp that shines on a place is chosen, and however weak it is often enough: no sample outweighs the rest by far.
+#[test]
+fn of_many_emitters_those_are_chosen_that_give_most() {
+    let (transport, is_bright) = many_lamps();
+    let (mut stream, mut met_count, mut worst) = (Stream::new(1, 2, 7), 0, 0.0_f64);
+    for _ in 0..50 {
+        let place = floor_at(&transport, 1.8 * stream.uniform() - 0.9, 1.8 * stream.uniform() - 0.9);
+        let of_lamp = |lamp: usize| {
+            let corners = corners_of(&transport, 1 + lamp);
+            let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+            let is_before = (place.point.as_dvec3() - corners[0]).dot(normal) > 0.0;
+            let radiance = if is_bright[lamp] { 1000.0 } else { 1.0 };
+            if is_before { radiance * PI * form_factor(place.point.as_dvec3(), DVec3::Y, &corners).abs() } else { 0.0 }
+        };
+        let expected: f64 = (0..is_bright.len()).map(of_lamp).sum();
+        let (mut found, mut largest) = (Moments::default(), 0.0_f64);
+        for _ in 0..20_000 {
+            let sample = transport.emitters().sample(&place, stream.uniform(), stream.uniform2());
+            let value = sample.map_or(0.0, |sample| f64::from(sample.radiance.x * sample.direction.y.max(0.0)));
+            found.add(value);
+            largest = largest.max(value);
+            let Some(sample) = sample else { continue };
+            let Some(met) = transport.meet(&transport.leave(&place, sample.direction)) else { continue };
+            // Where no other hides it, and the cosine is not one that rounding of 1e-6 changes.
+            if met.point.abs_diff_eq(sample.point.point, 1e-5) && -met.facing.dot(sample.direction) > 1e-2 {
+                let pdf = transport.emitters().pdf(&place, &met, sample.direction);
+                assert!((pdf / sample.pdf - 1.0).abs() < 1e-3, "{sample:?} {met:?} {pdf}");
+                met_count += 1;
+            }
+        }
+        worst = worst.max(largest / expected);
+        // 50 means: beyond 4.5 standard errors once in some 3,000.
+        assert!((found.mean() - expected).abs() < 4.5 * found.standard_error(), "{found:?}, {expected} expected");
+    }
+    println!("{met_count} met, a sample of {worst} times the mean");
+    assert!(met_count > 500_000, "{met_count}");
+    assert!(worst < 40.0, "{worst}");
 }

@@ -1,6 +1,7 @@
 //! One emitter: a polygon that shines from its front, and points of it by area, or by solid angle where it is near.
 
 use super::Media;
+use crate::math::bounds::Bounds;
 use crate::math::rgb::{Rgb, Rgb64};
 use crate::math::spherical_triangle::SphericalTriangle;
 use crate::mesh::{Region, Sampler};
@@ -34,10 +35,6 @@ pub(super) struct Emitter {
     pub radiance: Rgb,
     /// m²
     pub area: f64,
-    /// Probability that it is chosen, and the least of the numbers in [0, 1) that choose it.
-    probability: f64,
-    inverse_probability: f64,
-    first_choice: f64,
     /// Of points by area, 1/m².
     density: f32,
 }
@@ -82,31 +79,16 @@ impl Emitter {
             media: Media::default(),
             radiance,
             area,
-            probability: 0.0,
-            inverse_probability: 0.0,
-            first_choice: 0.0,
-            density: 0.0,
+            density: area.recip() as f32,
         }
-    }
-
-    /// Lets numbers from `first_choice` on choose it with this probability.
-    pub fn set_probability(&mut self, probability: f64, first_choice: f64) {
-        (self.probability, self.inverse_probability) = (probability, probability.recip());
-        self.first_choice = first_choice;
-        self.density = (probability / self.area) as f32;
-    }
-
-    pub fn probability(&self) -> f64 {
-        self.probability
-    }
-
-    /// What is left of a number that chose it, in [0, 1).
-    pub fn rest_of(&self, choice: f64) -> f32 {
-        (((choice - self.first_choice) * self.inverse_probability) as f32).clamp(0.0, 1.0 - f32::EPSILON)
     }
 
     pub fn corners(&self) -> &[Vec3A] {
         &self.corners[..self.triangle_count + 2]
+    }
+
+    pub fn bounds(&self) -> Bounds {
+        Bounds::of(self.corners().iter().map(|&corner| corner.into()))
     }
 
     /// π L A, W.
@@ -123,7 +105,7 @@ impl Emitter {
         self.surface_point(self.points[usize::from(which >= self.first_share)].point(at))
     }
 
-    /// The density of the direction towards a point that is chosen with this emitter in proportion to area, 1/sr; `None` where
+    /// The density of the direction towards a point that is chosen in proportion to area, 1/sr; `None` where
     /// the direction meets the back.
     pub fn pdf_by_area(&self, direction: Vec3A, distance: f32) -> Option<f32> {
         let cosine = -direction.dot(self.normal);
@@ -164,9 +146,9 @@ impl Emitter {
 }
 
 impl NearView<'_> {
-    /// The density of every direction, with which this emitter is chosen too, 1/sr.
+    /// The density of every direction, 1/sr.
     fn pdf(&self) -> f32 {
-        (self.emitter.probability / self.solid_angle) as f32
+        self.solid_angle.recip() as f32
     }
 
     /// A direction, and the point of the emitter there.

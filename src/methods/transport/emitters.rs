@@ -1,6 +1,7 @@
 //! All emitters of a scene: where light starts, and where shadow rays go.
 
 use super::emitter::Emitter;
+use super::emitter_tree::{Choice, EmitterTree};
 use super::{Media, Surface};
 use crate::math::bounds::Bounds;
 use crate::math::box_tree::{BoxTree, grown};
@@ -9,7 +10,7 @@ use crate::math::rgb::{Rgb, Rgb64, total};
 use crate::math::warp::{cosine_hemisphere, frame};
 use crate::tracer::{Ray, SurfacePoint};
 use crate::world::World;
-use glam::{Vec2, Vec3, Vec3A};
+use glam::{Vec2, Vec3A};
 use std::f64::consts::PI;
 
 /// Points of one low-discrepancy sequence; the next ones belong to another.
@@ -20,12 +21,14 @@ const ROUNDING: f64 = 1.0 / 16.0;
 /// Marks polygons that do not emit.
 const NONE: u32 = u32::MAX;
 
-/// The emitters, chosen in proportion to their flux.
+/// The emitters: light leaves them in proportion to their flux, and places look at them in proportion to the irradiance that is
+/// expected from each.
 #[derive(Default)]
 pub struct Emitters {
     emitters: Vec<Emitter>,
     /// For each emitter the share of the flux of it and those before, in [0, 1].
     cumulative: Vec<f64>,
+    tree: EmitterTree,
     /// Of each polygon, the index of its emitter.
     of_polygon: Vec<u32>,
     /// Of each emitter, the box in which cosine-distributed rays may meet it more often than it is chosen.
@@ -76,14 +79,13 @@ impl Emitters {
         let flux: Rgb64 = emitters.iter().map(Emitter::flux).sum();
         let mut sum = 0.0;
         let mut cumulative = Vec::with_capacity(emitters.len());
-        for emitter in &mut emitters {
-            let probability = total(emitter.flux()) / total(flux);
-            emitter.set_probability(probability, sum);
-            sum += probability;
+        for emitter in &emitters {
+            sum += total(emitter.flux()) / total(flux);
             cumulative.push(sum);
         }
         let reach = BoxTree::new(emitters.iter().map(|emitter| reach(emitter, flux)).collect());
-        Self { emitters, cumulative, of_polygon, reach, flux, rounding: ROUNDING * f64::from(offset) }
+        let tree = EmitterTree::new(&emitters);
+        Self { emitters, cumulative, tree, of_polygon, reach, flux, rounding: ROUNDING * f64::from(offset) }
     }
 
     /// Finds out which glass each emitter is in; `media_beside` knows it of a point of a side.
@@ -109,19 +111,19 @@ impl Emitters {
     pub fn emit(&self, index: u64, count: u64, seed: u64, pass: u64) -> Option<Emission> {
         let sequence = hash(seed, pass, index / SEQUENCE) as u32;
         let place = (index % SEQUENCE) as u32;
-        let (emitter, which) = self.choose(f64::from(sobol2(place, 2, sequence).x))?;
+        let (emitter, probability, which) = self.choose_by_flux(f64::from(sobol2(place, 2, sequence).x))?;
         let direction = frame(emitter.normal) * cosine_hemisphere(sobol2(place, 1, sequence));
         let from = emitter.point(which, sobol2(place, 0, sequence));
-        let flux = emitter.flux() / (emitter.probability() * count as f64);
+        let flux = emitter.flux() / (probability * count as f64);
         Some(Emission { ray: Ray::leaving(from, direction), flux: flux.as_vec3(), media: emitter.media })
     }
 
-    /// A direction from a place to an emitter, for numbers in [0, 1): emitters in proportion to their flux, then directions by
-    /// solid angle where the emitter is near, and else by area. `None` where the place is behind the emitter or on it, and
-    /// where nothing emits.
+    /// A direction from a place to an emitter, for numbers in [0, 1): emitters by their expected irradiance, then directions by
+    /// solid angle where the emitter is near, and else by area. `None` where no emitter that is chosen shines on the place.
     #[inline]
     pub fn sample(&self, surface: &Surface, choice: f32, at: Vec2) -> Option<EmitterSample> {
-        let (emitter, which) = self.choose(f64::from(choice))?;
+        let Choice { emitter, probability, rest } = self.tree.choose(surface, choice)?;
+        let (emitter, which) = (&self.emitters[emitter], rest);
         if emitter.polygon == surface.polygon {
             return None;
         }
@@ -134,19 +136,21 @@ impl Emitters {
             let direction = way / distance;
             (direction, point, emitter.pdf_by_area(direction, distance)?)
         };
+        let pdf = pdf * probability;
         Some(EmitterSample { point, direction, radiance: emitter.radiance / pdf, pdf })
     }
 
     /// The density, 1/sr, with which [`Emitters::sample`] chooses the direction of a ray that went from `surface` and met an
     /// emitter.
     pub fn pdf(&self, surface: &Surface, met: &Surface, direction: Vec3A) -> f32 {
-        let Some(emitter) = self.emitters.get(self.of_polygon[met.polygon as usize] as usize) else { return 0.0 };
+        let index = self.of_polygon[met.polygon as usize] as usize;
+        let Some(emitter) = self.emitters.get(index) else { return 0.0 };
         let pdf = if emitter.is_near(surface.point) {
             emitter.pdf_near(surface.point, self.rounding)
         } else {
             emitter.pdf_by_area(direction, met.distance)
         };
-        pdf.unwrap_or(0.0)
+        pdf.map_or(0.0, |pdf| pdf * self.tree.probability(surface, index))
     }
 
     /// Whether cosine-distributed directions from a place may meet an emitter more often than [`Emitters::sample`] chooses it,
@@ -162,12 +166,14 @@ impl Emitters {
         self.reach.any_at(surface.point.into(), &is_faced)
     }
 
-    /// An emitter, and a number in [0, 1) that is left of the one that chose it.
-    fn choose(&self, choice: f64) -> Option<(&Emitter, f32)> {
+    /// An emitter, its share of the flux, and a number in [0, 1) that is left of the one that chose it.
+    fn choose_by_flux(&self, choice: f64) -> Option<(&Emitter, f64, f32)> {
         let last = self.emitters.len().checked_sub(1)?;
         let index = self.cumulative.partition_point(|&share| share <= choice).min(last);
-        let emitter = &self.emitters[index];
-        Some((emitter, emitter.rest_of(choice)))
+        let first = if index == 0 { 0.0 } else { self.cumulative[index - 1] };
+        let probability = total(self.emitters[index].flux()) / total(self.flux);
+        let rest = ((choice - first) / probability) as f32;
+        Some((&self.emitters[index], probability, rest.clamp(0.0, 1.0 - f32::EPSILON)))
     }
 }
 
@@ -175,5 +181,5 @@ impl Emitters {
 /// point, p r²/cos θ: where r² < 1/(π p), with p = π L / Φ per area.
 fn reach(emitter: &Emitter, flux: Rgb64) -> Bounds {
     let square = total(flux) / (PI * PI * total(emitter.radiance.as_dvec3()));
-    grown(&Bounds::of(emitter.corners().iter().map(|&corner| Vec3::from(corner))), square.sqrt() as f32)
+    grown(&emitter.bounds(), square.sqrt() as f32)
 }

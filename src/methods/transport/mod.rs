@@ -3,6 +3,7 @@
 
 mod bsdf;
 mod emitter;
+mod emitter_tree;
 mod emitters;
 mod filter;
 mod fresnel;
