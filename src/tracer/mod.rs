@@ -293,8 +293,8 @@ impl Tracer {
         point * self.world_from_frame + self.center
     }
 
-    /// A point of a surface, moved off it along the unit normal by more than the rounding error of its coordinates:
-    /// the origin of rays that must not meet that surface again. (Wächter, Binder 2019 for the idea.)
+    /// A point of a surface, moved off it along the unit normal by more than the rounding error of its coordinates: where rays
+    /// start that leave no one polygon and must meet nothing in its plane. (Wächter, Binder 2019 for the idea.)
     pub fn lift(&self, point: Vec3A, normal: Vec3A) -> Vec3A {
         point + self.offset * normal
     }

@@ -5,7 +5,7 @@ use crate::math::random::Stream;
 use crate::math::warp::{cosine_hemisphere, frame};
 use crate::mesh::{Region, side_index};
 use crate::scene::{Polygon, Scene};
-use crate::tracer::{Ray, SPACE, SurfacePoint, Tracer};
+use crate::tracer::{Ray, SurfacePoint, Tracer};
 use glam::{DVec3, Vec3, Vec3A};
 
 /// What the exploration of a scene needs to know of each polygon.
@@ -87,7 +87,7 @@ impl Surfaces {
 
     /// The same for a ray that starts beyond what lies in the plane of the place.
     pub fn bounce_beyond(&self, from: &Place, tracer: &Tracer, stream: &mut Stream) -> Option<Place> {
-        let start = SurfacePoint { point: tracer.lift(from.point, from.normal), polygon: SPACE };
+        let start = SurfacePoint::in_space(tracer.lift(from.point, from.normal));
         self.bounce_from(start, from.normal, tracer, stream)
     }
 

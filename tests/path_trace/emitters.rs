@@ -181,5 +181,6 @@ fn of_many_emitters_those_are_chosen_that_give_most() {
     }
     println!("{met_count} met, a sample of {worst} times the mean");
     assert!(met_count > 500_000, "{met_count}");
+    // Estimates of groups are off by some times, at each of three levels; by flux alone, one sample is 350 times the mean.
     assert!(worst < 40.0, "{worst}");
 }

@@ -6,7 +6,7 @@ use crate::math::rgb::Rgb;
 use crate::mesh::Patch;
 use crate::methods::transport::{Bsdf, Surface, colour};
 use crate::solution::{Balance, Equation, LightSource, Visibility};
-use crate::tracer::{Hit, Ray, SPACE, SurfacePoint};
+use crate::tracer::{Hit, Ray, SurfacePoint};
 use crate::world::World;
 use glam::{DVec3, Vec3, Vec3A};
 use std::f64::consts::PI;
@@ -108,7 +108,7 @@ fn seen_by_eye(world: &World, eye: DVec3, point: Vec3, patch: &Patch) -> Visibil
         return Visibility::FacesAway;
     }
     let is_drawn = |hit: &Hit| world.mesh.side(hit.polygon, hit.is_front).is_some();
-    let eye = SurfacePoint { point: eye.as_vec3a(), polygon: SPACE };
+    let eye = SurfacePoint::in_space(eye.as_vec3a());
     first_between(world, eye, patch.surface_point(point.into()), is_drawn)
 }
 

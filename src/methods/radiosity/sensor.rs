@@ -5,7 +5,7 @@ use crate::math::random::{hash, sobol2};
 use crate::math::rgb::{Rgb, Rgb64};
 use crate::mesh::Patch;
 use crate::solution::Solution;
-use crate::tracer::{SPACE, SurfacePoint};
+use crate::tracer::{SurfacePoint};
 use crate::world::World;
 use glam::{DVec3, Vec3A};
 use rayon::prelude::*;
@@ -45,7 +45,7 @@ pub fn irradiance_in_space(world: &World, solution: &Solution, point: Vec3A, nor
 /// Share of the patch's points above the horizon that the sensor sees.
 fn visible_share(world: &World, patch: &Patch, point: Vec3A, normal: Vec3A, seed: u32) -> f64 {
     let targets = patch.region().sampler();
-    let from = SurfacePoint { point, polygon: SPACE };
+    let from = SurfacePoint::in_space(point);
     let (mut above, mut visible) = (0, 0);
     for i in 0..RAYS {
         let to = targets.point(sobol2(i, 0, seed));

@@ -177,8 +177,8 @@ impl Emitters {
     }
 }
 
-/// The box round an emitter in which a cosine-distributed ray may have a greater density, at most 1/π, than the choice of a
-/// point, p r²/cos θ: where r² < 1/(π p), with p = π L / Φ per area.
+/// The box round an emitter in which a cosine-distributed ray may have a greater density, at most 1/π, than a point that is chosen
+/// by flux, p r²/cos θ: where r² < 1/(π p), with p = π L / Φ per area. Near an emitter it is chosen more often than that.
 fn reach(emitter: &Emitter, flux: Rgb64) -> Bounds {
     let square = total(flux) / (PI * PI * total(emitter.radiance.as_dvec3()));
     grown(&emitter.bounds(), square.sqrt() as f32)
