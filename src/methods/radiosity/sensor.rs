@@ -5,7 +5,7 @@ use crate::math::random::{hash, sobol2};
 use crate::math::rgb::{Rgb, Rgb64};
 use crate::mesh::Patch;
 use crate::solution::Solution;
-use crate::tracer::{SurfacePoint};
+use crate::tracer::SurfacePoint;
 use crate::world::World;
 use glam::{DVec3, Vec3A};
 use rayon::prelude::*;
