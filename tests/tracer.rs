@@ -298,7 +298,7 @@ fn from_outside_of_a_convex_body_its_inside_is_not_seen() {
             assert!(hit.is_front, "scale {scale}: {ray:?} meets {hit:?}");
             // Out again, however flatly.
             let [a, b, c] = triangles[hit.polygon as usize].map(Vec3A::from);
-            let height = 10.0_f32.powf(-7.0 * stream.uniform());
+            let height = 10.0_f32.powf(-6.0 * stream.uniform());
             let along = (b - a).normalize() * (stream.uniform() - 0.5) + (c - a).normalize() * (stream.uniform() - 0.5);
             let out = (height * (b - a).cross(c - a).normalize() + along).normalize();
             let next = tracer.closest(&Ray::leaving(hit.surface_point(), out));

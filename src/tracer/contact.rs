@@ -26,7 +26,7 @@ pub struct Facet {
 }
 
 /// Where a ray meets a facet.
-struct Crossing {
+struct Meeting {
     /// m
     distance: f64,
     is_between_edges: bool,
@@ -71,7 +71,7 @@ impl Facet {
     }
 
     /// Where a ray meets the facet, or its outline if the ray passes just beside it.
-    fn cross(&self, origin: DVec3, direction: DVec3) -> Crossing {
+    fn cross(&self, origin: DVec3, direction: DVec3) -> Meeting {
         let corners = self.corners.map(|corner| corner - origin);
         let [a, b, c] = corners;
         let weights = [b.cross(c), c.cross(a), a.cross(b)].map(|moment| moment.dot(direction));
@@ -83,7 +83,7 @@ impl Facet {
             let nearest = [(a, b), (b, c), (c, a)].map(|edge| nearest_of_edge(edge, direction));
             nearest.into_iter().min_by(|one, other| one.1.total_cmp(&other.1)).map_or(0.0, |(distance, _)| distance)
         };
-        Crossing { distance, is_between_edges, is_front: self.faces(direction) }
+        Meeting { distance, is_between_edges, is_front: self.faces(direction) }
     }
 
     /// Whether a ray in this direction meets the front.

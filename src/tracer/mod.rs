@@ -353,8 +353,7 @@ impl ClosestHit<'_> {
                 None => return f32::INFINITY,
             }
         }
-        // Not a number where single precision finds no distance.
-        if !(crossing.distance >= 0.0 && crossing.distance <= self.limit) {
+        if !(0.0..=self.limit).contains(&crossing.distance) {
             return f32::INFINITY;
         }
         let candidate = Candidate { triangle, crossing };

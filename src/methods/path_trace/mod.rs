@@ -132,7 +132,7 @@ impl PathTracer {
                 if sample.crosses { self.transport.media_behind(&vertex.surface, vertex.media) } else { vertex.media };
             let emission = self.transport.emission(&surface);
             if emission != Rgb::ZERO && self.counts(to_eye) {
-                let other = self.transport.emitters().pdf(&vertex.surface, &surface, ray.direction);
+                let other = || self.transport.emitters().pdf(&vertex.surface, &surface, ray.direction);
                 sum += throughput * narrowing * self.mis_weight(&sample, other) * emission;
             }
             vertex = self.vertex(surface, &ray, media, to_eye, cost);
@@ -157,14 +157,14 @@ impl PathTracer {
 
     /// The weight of an emitter that a sampled direction met; `other` is the density, 1/sr, with which a point of it would have
     /// been chosen.
-    fn mis_weight(&self, sample: &Sample, other: f32) -> f32 {
+    fn mis_weight(&self, sample: &Sample, other: impl Fn() -> f32) -> f32 {
         if sample.is_sharp {
             // No ray to an emitter finds this way.
             1.0
         } else if self.transport.ignores_occluders {
             0.0
         } else {
-            power_heuristic(sample.density, other)
+            power_heuristic(sample.density, other())
         }
     }
 

@@ -22,7 +22,8 @@ pub(super) struct Emitter {
     points: [Sampler; 2],
     /// Of the area, that of the first triangle.
     first_share: f32,
-    center: Vec3A,
+    /// Of the bounding box.
+    pub center: Vec3A,
     /// m²
     squared_near_distance: f32,
     /// The unit normal in double precision, for places next to the plane.

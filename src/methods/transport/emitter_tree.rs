@@ -1,5 +1,5 @@
-//! Which emitter a place looks at: emitters in a tree, each of whose parts is chosen by an estimate of the irradiance that it
-//! gives there (Conty Estevez, Kulla 2018). So a weak lamp is found beside it, and a strong one is not looked for behind it.
+//! Importance sampling of many emitters by a light tree (Conty Estevez, Kulla 2018): each child of a node is chosen by an estimate
+//! of the irradiance that it gives at a place.
 
 use super::Surface;
 use super::emitter::Emitter;
@@ -7,55 +7,56 @@ use crate::math::bounds::Bounds;
 use crate::math::rgb::total;
 use glam::Vec3A;
 
-/// Parts of a node: single precision numbers in a register.
+/// Children of a node: single precision numbers in a register.
 const WIDTH: usize = 8;
 /// Squared radii are taken for so much larger than they are, so that rounding hides no emitter.
 const MARGIN: f32 = 1.002;
 /// Cosines of two unit vectors are known to this.
 const COSINE_ROUNDING: f32 = 6.0 * f32::EPSILON;
-/// Marks parts of more than one emitter, and parts of none: neither a polygon nor [`SPACE`](crate::tracer::SPACE).
+/// Marks children of more than one emitter, and those that are none: neither a polygon nor [`SPACE`](crate::tracer::SPACE).
 const GROUP: u32 = u32::MAX - 1;
 /// The parent of the first node.
-const NOWHERE: Slot = Slot { node: u32::MAX, part: 0 };
+const NO_PARENT: ChildIndex = ChildIndex { node: u32::MAX, child: 0 };
 
-/// Emitters in groups of groups: each is divided at the median along its longest extent until there are eight parts.
+/// Emitters in groups of groups, divided where the groups become small and the bright ones smallest.
 #[derive(Default)]
 pub struct EmitterTree {
     nodes: Vec<Node>,
-    /// Where each emitter is a part.
-    places: Vec<Slot>,
+    /// Where each emitter is a child.
+    leaves: Vec<ChildIndex>,
+    /// 1 over the radius of the scene's emitters, 1/m: squared distances are in units of it, so that they do not underflow.
+    per_unit: f32,
 }
 
-/// Eight parts, or fewer, of which the rest have no flux: for each the sphere round it, and the cone round its normals.
+/// Eight children, or fewer, of which the rest have no flux: for each its bounding sphere, and the bounding cone of its normals.
 struct Node {
     /// m
     center: [[f32; WIDTH]; 3],
-    /// m²
+    /// In squared units of the tree.
     squared_radius: [f32; WIDTH],
     axis: [[f32; WIDTH]; 3],
     /// Of half the angle of the cone.
     spread_cosine: [f32; WIDTH],
     spread_sine: [f32; WIDTH],
-    /// W, summed over the channels.
+    /// As a share of all.
     flux: [f32; WIDTH],
     /// Index of the node, or of the emitter where there is but one.
     index: [u32; WIDTH],
     /// Of the emitter, or [`GROUP`].
     polygon: [u32; WIDTH],
-    /// Of which this node is a part.
-    parent: Slot,
+    parent: ChildIndex,
 }
 
-/// One part of a node.
+/// One child of a node.
 #[derive(Clone, Copy)]
-struct Slot {
+struct ChildIndex {
     node: u32,
-    part: u32,
+    child: u32,
 }
 
 /// The emitter that a number chose.
-pub struct Choice {
-    pub emitter: usize,
+pub struct ChosenEmitter {
+    pub index: usize,
     pub probability: f32,
     /// What is left of the number, in [0, 1).
     pub rest: f32,
@@ -63,99 +64,133 @@ pub struct Choice {
 
 impl EmitterTree {
     pub(super) fn new(emitters: &[Emitter]) -> Self {
-        let mut tree = Self { nodes: Vec::new(), places: vec![NOWHERE; emitters.len()] };
+        let bounds = bounds_of(emitters.iter());
+        let per_unit = bounds.radius().max(f32::MIN_POSITIVE).recip();
+        let mut tree = Self { nodes: Vec::new(), leaves: vec![NO_PARENT; emitters.len()], per_unit };
         if !emitters.is_empty() {
+            let flux: f64 = emitters.iter().map(|emitter| total(emitter.flux())).sum();
             let mut order: Vec<u32> = (0..emitters.len() as u32).collect();
-            tree.add(emitters, &mut order, NOWHERE);
+            tree.add(emitters, flux, &mut order, NO_PARENT);
         }
         tree
     }
 
     /// Adds a node of these emitters, and all nodes below it.
-    fn add(&mut self, emitters: &[Emitter], order: &mut [u32], parent: Slot) {
+    fn add(&mut self, emitters: &[Emitter], flux: f64, order: &mut [u32], parent: ChildIndex) {
         let node = self.nodes.len();
         self.nodes.push(Node::new(parent));
-        for (part, members) in divided(emitters, order, WIDTH).into_iter().enumerate() {
-            let slot = Slot { node: node as u32, part: part as u32 };
-            self.nodes[node].set(part, members.iter().map(|&index| &emitters[index as usize]));
+        for (child, members) in divided(emitters, order).into_iter().enumerate() {
+            let at = ChildIndex { node: node as u32, child: child as u32 };
+            let per_unit = self.per_unit;
+            self.nodes[node].set(child, members.iter().map(|&index| &emitters[index as usize]), flux, per_unit);
             if let [emitter] = *members {
-                self.nodes[node].index[part] = emitter;
-                self.nodes[node].polygon[part] = emitters[emitter as usize].polygon;
-                self.places[emitter as usize] = slot;
+                self.nodes[node].index[child] = emitter;
+                self.nodes[node].polygon[child] = emitters[emitter as usize].polygon;
+                self.leaves[emitter as usize] = at;
             } else {
-                self.nodes[node].index[part] = self.nodes.len() as u32;
-                self.add(emitters, members, slot);
+                self.nodes[node].index[child] = self.nodes.len() as u32;
+                self.add(emitters, flux, members, at);
             }
         }
     }
 
     /// The emitter that a number in [0, 1) chooses for a place; `None` where no emitter shines on the place.
-    pub fn choose(&self, surface: &Surface, mut number: f32) -> Option<Choice> {
-        if let [_] = *self.places {
-            return Some(Choice { emitter: 0, probability: 1.0, rest: number });
-        }
+    pub fn choose(&self, surface: &Surface, mut number: f32) -> Option<ChosenEmitter> {
         let (mut node, mut probability) = (self.nodes.first()?, 1.0);
         loop {
-            let irradiance = node.irradiance(surface);
+            let importance = node.importance(surface, self.per_unit);
             let mut sum = 0.0;
-            let ends = irradiance.map(|of_part| {
-                sum += of_part;
+            let ends = importance.map(|of_child| {
+                sum += of_child;
                 sum
             });
-            if sum <= 0.0 {
-                return None;
+            // Rounding must not lead past the last one.
+            let last = importance.iter().rposition(|&of_child| of_child > 0.0)?;
+            let at = number * sum;
+            let child = ends.iter().filter(|&&end| end <= at).count().min(last);
+            let start = ends[child] - importance[child];
+            number = ((at - start) / importance[child]).clamp(0.0, 1.0 - f32::EPSILON);
+            probability *= importance[child] / sum;
+            if node.polygon[child] != GROUP {
+                return Some(ChosenEmitter { index: node.index[child] as usize, probability, rest: number });
             }
-            // A little less, so that rounding does not lead past the last part.
-            let at = number * sum * (1.0 - f32::EPSILON);
-            let part = ends.iter().filter(|&&end| end <= at).count();
-            let start = ends[part] - irradiance[part];
-            number = ((at - start) / irradiance[part]).clamp(0.0, 1.0 - f32::EPSILON);
-            probability *= irradiance[part] / sum;
-            if node.polygon[part] != GROUP {
-                return Some(Choice { emitter: node.index[part] as usize, probability, rest: number });
-            }
-            node = &self.nodes[node.index[part] as usize];
+            node = &self.nodes[node.index[child] as usize];
         }
     }
 
     /// The probability with which [`EmitterTree::choose`] chooses an emitter for a place.
     pub fn probability(&self, surface: &Surface, emitter: usize) -> f32 {
-        if let [_] = *self.places {
-            return 1.0;
-        }
-        let mut slot = self.places[emitter];
+        let mut at = self.leaves[emitter];
         let mut probability = 1.0;
-        while let Some(node) = self.nodes.get(slot.node as usize) {
-            let irradiance = node.irradiance(surface);
-            let of_part = irradiance[slot.part as usize];
+        while let Some(node) = self.nodes.get(at.node as usize) {
+            let importance = node.importance(surface, self.per_unit);
+            let of_child = importance[at.child as usize];
             // Before it is divided: 0 of nothing is 0.
-            if of_part <= 0.0 {
+            if of_child <= 0.0 {
                 return 0.0;
             }
-            probability *= of_part / irradiance.iter().sum::<f32>();
-            slot = node.parent;
+            probability *= of_child / importance.iter().sum::<f32>();
+            at = node.parent;
         }
         probability
     }
 }
 
-/// Emitters in so many groups, or in groups of one.
-fn divided<'a>(emitters: &[Emitter], order: &'a mut [u32], groups: usize) -> Vec<&'a mut [u32]> {
-    if groups == 1 || order.len() == 1 {
-        return vec![order];
+fn bounds_of<'a>(emitters: impl Iterator<Item = &'a Emitter>) -> Bounds {
+    Bounds::of(emitters.flat_map(|emitter| emitter.corners()).map(|&corner| corner.into()))
+}
+
+/// Emitters in eight groups, or in groups of one: again and again the group that costs most is divided.
+fn divided<'a>(emitters: &[Emitter], order: &'a mut [u32]) -> Vec<&'a mut [u32]> {
+    let mut groups = vec![(f32::INFINITY, order)];
+    while groups.len() < WIDTH {
+        let costs = groups.iter().map(|(cost, group)| if group.len() > 1 { *cost } else { -1.0 });
+        let Some((largest, _)) =
+            costs.enumerate().filter(|(_, cost)| *cost >= 0.0).max_by(|(_, a), (_, b)| a.total_cmp(b))
+        else {
+            break;
+        };
+        let (_, group) = groups.swap_remove(largest);
+        groups.extend(halves(emitters, group));
     }
-    let middle = |emitter: u32| emitters[emitter as usize].bounds().center();
-    let axis = Bounds::of(order.iter().map(|&emitter| middle(emitter))).extent().max_position();
-    let half = order.len() / 2;
-    order.select_nth_unstable_by(half, |&a, &b| middle(a)[axis].total_cmp(&middle(b)[axis]).then(a.cmp(&b)));
-    let (low, high) = order.split_at_mut(half);
-    let mut parts = divided(emitters, low, groups / 2);
-    parts.extend(divided(emitters, high, groups / 2));
-    parts
+    groups.into_iter().map(|(_, group)| group).collect()
+}
+
+/// A group cut across its longest extent where its two parts cost least, with the cost of each.
+fn halves<'a>(emitters: &[Emitter], group: &'a mut [u32]) -> [(f32, &'a mut [u32]); 2] {
+    let center = |index: u32| emitters[index as usize].center;
+    let axis = Bounds::of(group.iter().map(|&index| center(index).into())).extent().max_position();
+    group.sort_unstable_by(|&a, &b| center(a)[axis].total_cmp(&center(b)[axis]).then(a.cmp(&b)));
+    let low = costs(emitters, group.iter());
+    let mut high = costs(emitters, group.iter().rev());
+    high.reverse();
+    let middle = group.len() / 2;
+    let order = |&a: &usize, &b: &usize| {
+        let [[cost_a, off_a], [cost_b, off_b]] =
+            [a, b].map(|cut| [low[cut - 1] + high[cut], cut.abs_diff(middle) as f32]);
+        cost_a.total_cmp(&cost_b).then(off_a.total_cmp(&off_b))
+    };
+    let cut = (1..group.len()).min_by(order).unwrap_or(middle);
+    let (first, second) = group.split_at_mut(cut);
+    [(low[cut - 1], first), (high[cut], second)]
+}
+
+/// Of the first emitter, the first two and so on: flux times the squared radius.
+fn costs<'a>(emitters: &[Emitter], order: impl Iterator<Item = &'a u32>) -> Vec<f32> {
+    let (mut bounds, mut flux) = (Bounds::EMPTY, 0.0);
+    order
+        .map(|&index| {
+            let emitter = &emitters[index as usize];
+            let own = emitter.bounds();
+            bounds = Bounds { min: bounds.min.min(own.min), max: bounds.max.max(own.max) };
+            flux += total(emitter.flux());
+            (flux * f64::from(bounds.radius()).powi(2)) as f32
+        })
+        .collect()
 }
 
 impl Node {
-    fn new(parent: Slot) -> Self {
+    fn new(parent: ChildIndex) -> Self {
         Self {
             center: [[0.0; WIDTH]; 3],
             squared_radius: [1.0; WIDTH],
@@ -169,33 +204,39 @@ impl Node {
         }
     }
 
-    fn set<'a>(&mut self, part: usize, members: impl Iterator<Item = &'a Emitter> + Clone) {
-        let corners = members.clone().flat_map(|emitter| emitter.corners());
-        let bounds = Bounds::of(corners.map(|&corner| corner.into()));
+    fn set<'a>(
+        &mut self,
+        child: usize,
+        members: impl Iterator<Item = &'a Emitter> + Clone,
+        flux_of_all: f64,
+        per_unit: f32,
+    ) {
+        let bounds = bounds_of(members.clone());
         let sum: Vec3A = members.clone().map(|emitter| emitter.normal).sum();
         let axis = sum.try_normalize().unwrap_or(Vec3A::Z);
         let least = members.clone().map(|emitter| axis.dot(emitter.normal)).fold(1.0, f32::min);
         let spread_cosine = (least - COSINE_ROUNDING).max(-1.0);
         for i in 0..3 {
-            self.center[i][part] = bounds.center()[i];
-            self.axis[i][part] = axis[i];
+            self.center[i][child] = bounds.center()[i];
+            self.axis[i][child] = axis[i];
         }
-        self.squared_radius[part] = MARGIN * bounds.radius().powi(2);
-        self.spread_cosine[part] = spread_cosine;
-        self.spread_sine[part] = (1.0 - spread_cosine * spread_cosine).sqrt();
-        self.flux[part] = members.map(|emitter| total(emitter.flux())).sum::<f64>() as f32;
+        let radius = bounds.radius() + f32::EPSILON * bounds.magnitude();
+        self.squared_radius[child] = MARGIN * (radius * per_unit).powi(2);
+        self.spread_cosine[child] = spread_cosine;
+        self.spread_sine[child] = (1.0 - spread_cosine * spread_cosine).sqrt();
+        self.flux[child] = (members.map(|emitter| total(emitter.flux())).sum::<f64>() / flux_of_all) as f32;
     }
 
-    /// Of each part, flux over the squared distance, times the largest cosines that there may be at both ends: in proportion to
-    /// a rough irradiance, and 0 only where there is none. Without branches, so that all parts are computed at once.
+    /// Of each child, flux over the squared distance, times the largest cosines that there may be at both ends: 0 only where it
+    /// gives no irradiance. Without branches, so that all children are computed at once.
     #[inline]
-    fn irradiance(&self, surface: &Surface) -> [f32; WIDTH] {
+    fn importance(&self, surface: &Surface, per_unit: f32) -> [f32; WIDTH] {
         let [x, y, z] = &self.center;
         let [axis_x, axis_y, axis_z] = &self.axis;
         let (point, facing) = (surface.point, surface.facing);
-        let mut irradiance = [0.0; WIDTH];
+        let mut importance = [0.0; WIDTH];
         for i in 0..WIDTH {
-            let (x, y, z) = (point.x - x[i], point.y - y[i], point.z - z[i]);
+            let [x, y, z] = [point.x - x[i], point.y - y[i], point.z - z[i]].map(|way| way * per_unit);
             let squared_distance = x * x + y * y + z * z;
             let per_distance = squared_distance.sqrt().recip();
             let squared_radius = self.squared_radius[i];
@@ -207,9 +248,9 @@ impl Node {
             let cosines = leaving.less(spread).less(blur).cosine.max(0.0) * arriving.less(blur).cosine.max(0.0);
             let flux = if self.polygon[i] == surface.polygon { 0.0 } else { self.flux[i] };
             let is_outside = squared_distance > squared_radius;
-            irradiance[i] = flux * if is_outside { cosines / squared_distance } else { squared_radius.recip() };
+            importance[i] = flux * if is_outside { cosines / squared_distance } else { squared_radius.recip() };
         }
-        irradiance
+        importance
     }
 }
 

@@ -1,7 +1,7 @@
 //! All emitters of a scene: where light starts, and where shadow rays go.
 
 use super::emitter::Emitter;
-use super::emitter_tree::{Choice, EmitterTree};
+use super::emitter_tree::{ChosenEmitter, EmitterTree};
 use super::{Media, Surface};
 use crate::math::bounds::Bounds;
 use crate::math::box_tree::{BoxTree, grown};
@@ -18,11 +18,14 @@ const SEQUENCE: u64 = 1 << 16;
 /// Coordinates of surfaces are known to about this share of the tracer's offset, which is 32 units in the last
 /// place: a place that is so near to the plane of an emitter is taken to be in it.
 const ROUNDING: f64 = 1.0 / 16.0;
+/// Share of the samples that choose emitters by flux, whatever is expected of them: no emitter is chosen so seldom, where the
+/// expectation is wrong, that a sample counts for more than 8 times as much as if all were chosen so.
+const BY_FLUX: f32 = 1.0 / 8.0;
 /// Marks polygons that do not emit.
 const NONE: u32 = u32::MAX;
 
-/// The emitters: light leaves them in proportion to their flux, and places look at them in proportion to the irradiance that is
-/// expected from each.
+/// The emitters, chosen in proportion to their flux where light leaves them, and where it arrives mostly in proportion to the
+/// irradiance that is expected from each.
 #[derive(Default)]
 pub struct Emitters {
     emitters: Vec<Emitter>,
@@ -111,10 +114,11 @@ impl Emitters {
     pub fn emit(&self, index: u64, count: u64, seed: u64, pass: u64) -> Option<Emission> {
         let sequence = hash(seed, pass, index / SEQUENCE) as u32;
         let place = (index % SEQUENCE) as u32;
-        let (emitter, probability, which) = self.choose_by_flux(f64::from(sobol2(place, 2, sequence).x))?;
+        let (index, which) = self.choose_by_flux(f64::from(sobol2(place, 2, sequence).x))?;
+        let emitter = &self.emitters[index];
         let direction = frame(emitter.normal) * cosine_hemisphere(sobol2(place, 1, sequence));
         let from = emitter.point(which, sobol2(place, 0, sequence));
-        let flux = emitter.flux() / (probability * count as f64);
+        let flux = emitter.flux() / (self.share(index) * count as f64);
         Some(Emission { ray: Ray::leaving(from, direction), flux: flux.as_vec3(), media: emitter.media })
     }
 
@@ -122,8 +126,8 @@ impl Emitters {
     /// solid angle where the emitter is near, and else by area. `None` where no emitter that is chosen shines on the place.
     #[inline]
     pub fn sample(&self, surface: &Surface, choice: f32, at: Vec2) -> Option<EmitterSample> {
-        let Choice { emitter, probability, rest } = self.tree.choose(surface, choice)?;
-        let (emitter, which) = (&self.emitters[emitter], rest);
+        let ChosenEmitter { index, probability, rest: which } = self.choose(surface, choice)?;
+        let emitter = &self.emitters[index];
         if emitter.polygon == surface.polygon {
             return None;
         }
@@ -150,7 +154,7 @@ impl Emitters {
         } else {
             emitter.pdf_by_area(direction, met.distance)
         };
-        pdf.map_or(0.0, |pdf| pdf * self.tree.probability(surface, index))
+        pdf.map_or(0.0, |pdf| pdf * self.probability(surface, index))
     }
 
     /// Whether cosine-distributed directions from a place may meet an emitter more often than [`Emitters::sample`] chooses it,
@@ -166,19 +170,48 @@ impl Emitters {
         self.reach.any_at(surface.point.into(), &is_faced)
     }
 
-    /// An emitter, its share of the flux, and a number in [0, 1) that is left of the one that chose it.
-    fn choose_by_flux(&self, choice: f64) -> Option<(&Emitter, f64, f32)> {
+    /// An emitter for a place, by flux or by what is expected.
+    fn choose(&self, surface: &Surface, choice: f32) -> Option<ChosenEmitter> {
+        if self.emitters.len() < 2 || choice < BY_FLUX {
+            let number = if self.emitters.len() < 2 { choice } else { choice / BY_FLUX };
+            let (index, rest) = self.choose_by_flux(f64::from(number))?;
+            return Some(ChosenEmitter { index, probability: self.probability(surface, index), rest });
+        }
+        let chosen = self.tree.choose(surface, (choice - BY_FLUX) / (1.0 - BY_FLUX))?;
+        let probability = mixed(self.share(chosen.index) as f32, chosen.probability);
+        Some(ChosenEmitter { probability, ..chosen })
+    }
+
+    /// The probability with which an emitter is chosen for a place.
+    fn probability(&self, surface: &Surface, index: usize) -> f32 {
+        if self.emitters.len() < 2 {
+            1.0
+        } else {
+            mixed(self.share(index) as f32, self.tree.probability(surface, index))
+        }
+    }
+
+    /// Of the flux.
+    fn share(&self, index: usize) -> f64 {
+        total(self.emitters[index].flux()) / total(self.flux)
+    }
+
+    /// An emitter in proportion to flux, and a number in [0, 1) that is left of the one that chose it.
+    fn choose_by_flux(&self, choice: f64) -> Option<(usize, f32)> {
         let last = self.emitters.len().checked_sub(1)?;
         let index = self.cumulative.partition_point(|&share| share <= choice).min(last);
         let first = if index == 0 { 0.0 } else { self.cumulative[index - 1] };
-        let probability = total(self.emitters[index].flux()) / total(self.flux);
-        let rest = ((choice - first) / probability) as f32;
-        Some((&self.emitters[index], probability, rest.clamp(0.0, 1.0 - f32::EPSILON)))
+        let rest = ((choice - first) / self.share(index)) as f32;
+        Some((index, rest.clamp(0.0, 1.0 - f32::EPSILON)))
     }
 }
 
+fn mixed(by_flux: f32, by_expectation: f32) -> f32 {
+    BY_FLUX * by_flux + (1.0 - BY_FLUX) * by_expectation
+}
+
 /// The box round an emitter in which a cosine-distributed ray may have a greater density, at most 1/π, than a point that is chosen
-/// by flux, p r²/cos θ: where r² < 1/(π p), with p = π L / Φ per area. Near an emitter it is chosen more often than that.
+/// by flux, p r²/cos θ: where r² < 1/(π p), with p = π L / Φ per area. That is a rough guess where there are many.
 fn reach(emitter: &Emitter, flux: Rgb64) -> Bounds {
     let square = total(flux) / (PI * PI * total(emitter.radiance.as_dvec3()));
     grown(&emitter.bounds(), square.sqrt() as f32)
