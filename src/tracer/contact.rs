@@ -25,8 +25,8 @@ pub struct Facet {
     polygon: u32,
 }
 
-/// Where a ray meets a facet.
-struct Meeting {
+/// Where a ray intersects a facet.
+struct Intersection {
     /// m
     distance: f64,
     is_between_edges: bool,
@@ -70,8 +70,8 @@ impl Facet {
         })
     }
 
-    /// Where a ray meets the facet, or its outline if the ray passes just beside it.
-    fn cross(&self, origin: DVec3, direction: DVec3) -> Meeting {
+    /// Where a ray intersects the facet, or its outline if the ray passes just beside it.
+    fn intersect(&self, origin: DVec3, direction: DVec3) -> Intersection {
         let corners = self.corners.map(|corner| corner - origin);
         let [a, b, c] = corners;
         let weights = [b.cross(c), c.cross(a), a.cross(b)].map(|moment| moment.dot(direction));
@@ -83,7 +83,7 @@ impl Facet {
             let nearest = [(a, b), (b, c), (c, a)].map(|edge| nearest_of_edge(edge, direction));
             nearest.into_iter().min_by(|one, other| one.1.total_cmp(&other.1)).map_or(0.0, |(distance, _)| distance)
         };
-        Meeting { distance, is_between_edges, is_front: self.faces(direction) }
+        Intersection { distance, is_between_edges, is_front: self.faces(direction) }
     }
 
     /// Whether a ray in this direction meets the front.
@@ -138,13 +138,13 @@ impl Contact {
         one.iter().any(|a| other.iter().any(|b| !are_apart(a, b)))
     }
 
-    /// Whether a ray meets the first facet before the second, both of which it meets in single precision. If it just passes
-    /// beside them, it meets of a body the outside, whose front it sees, and not the inside.
+    /// Whether a ray hits the first facet before the second, where single precision finds that it hits both. Where the ray passes
+    /// just outside the outline of a body, it hits the front side of the body, not the inside.
     pub fn is_before(&self, first: &Facet, second: &Facet, origin: DVec3, direction: DVec3) -> bool {
         if self.coincide(first, second) {
             return self.is_ranked_before(first, second, direction);
         }
-        let [first, second] = [first, second].map(|facet| facet.cross(origin, direction));
+        let [first, second] = [first, second].map(|facet| facet.intersect(origin, direction));
         let are_certain = first.is_between_edges && second.is_between_edges;
         if !are_certain && first.is_front != second.is_front && (first.distance - second.distance).abs() <= self.slack {
             return first.is_front;

@@ -28,7 +28,7 @@ pub struct EmitterTree {
     per_unit: f32,
 }
 
-/// Eight children, or fewer, of which the rest have no flux: for each its bounding sphere, and the bounding cone of its normals.
+/// Bounding spheres of up to eight children, and bounding cones of their normals. Unused children have no flux.
 struct Node {
     /// m
     center: [[f32; WIDTH]; 3],
